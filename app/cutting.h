@@ -33,7 +33,7 @@ struct PreviewOptions {
         project::PlotSettings().half_light; ///< what halves the light that goes through the plate, mm
 };
 
-/// Those of the workbench where nothing is said.
+/// The window's where nothing is said.
 struct CuttingOptions {
     std::string out = {};
     PreviewOptions preview = {};

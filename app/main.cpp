@@ -29,7 +29,7 @@
 #include "app/help_format.h"
 #include "app/kept_outputs.h"
 #include "app/list_options.h"
-#include "app/output_files.h"
+#include "app/output_conflicts.h"
 #include "app/output_streams.h"
 #include "app/suggestion.h"
 #include "app/threads_option.h"

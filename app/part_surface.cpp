@@ -48,19 +48,19 @@ void add_divided(const Triangle& t, double longest, PartSurface& part) {
 
 } // namespace
 
-PartSurface part_surface(const plan::Workpiece& workpiece) {
+PartSurface part_surface(const plan::CuttingSetup& cutting_setup) {
     constexpr int steps = 80; // each way: 6,561 points
     const geometry::Mesh mesh =
-        workpiece.trim.everything()
-            ? geometry::tessellate(workpiece.patch, steps, steps)
-            : geometry::tessellate(workpiece.patch, workpiece.trim, steps, steps).mesh;
+        cutting_setup.trim.everything()
+            ? geometry::tessellate(cutting_setup.patch, steps, steps)
+            : geometry::tessellate(cutting_setup.patch, cutting_setup.trim, steps, steps).mesh;
     PartSurface part;
     part.text = "the machined face";
     part.corners = mesh.positions;
     part.triangles = mesh.triangles;
     for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
         part.points.push_back(
-            {mesh.positions[n], workpiece.flipped ? Vec3(-mesh.normals[n]) : mesh.normals[n], 0.0});
+            {mesh.positions[n], cutting_setup.flipped ? Vec3(-mesh.normals[n]) : mesh.normals[n], 0.0});
         part.point_of_corner.push_back(static_cast<int>(n));
     }
     std::vector<Vec3> around(part.points.size(), Vec3::Zero()); // sums of normals, as long as areas
@@ -72,7 +72,7 @@ PartSurface part_surface(const plan::Workpiece& workpiece) {
         const Vec3 doubled = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         for (const int corner : triangle) {
             part.points[static_cast<std::size_t>(corner)].area += area_of(corners) / 3.0;
-            around[static_cast<std::size_t>(corner)] += workpiece.flipped ? Vec3(-doubled) : doubled;
+            around[static_cast<std::size_t>(corner)] += cutting_setup.flipped ? Vec3(-doubled) : doubled;
         }
     }
     // At a corner where an edge of the patch has no length it has no normal: that of the triangles around.

@@ -23,12 +23,12 @@ struct PartSurface {
 };
 
 /// The machined face with its outlines, normals on the side of the tool.
-[[nodiscard]] PartSurface part_surface(const plan::Workpiece& workpiece);
+[[nodiscard]] PartSurface part_surface(const plan::CuttingSetup& cutting_setup);
 
 /// The triangles of an STL, OBJ or PLY file in mm, large ones divided. Throws Error, Cancelled.
 [[nodiscard]] PartSurface part_surface(const std::filesystem::path& file, const Progress& progress);
 
-/// Red: gouged beyond `tolerance` mm; green: within; blue: material left beyond it. One a corner.
+/// Red: gouged beyond `tolerance` mm; green: within; blue: material left beyond it. One per corner.
 [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> deviation_colors(
     const PartSurface& part, const std::vector<simulation::Deviation>& deviations, double tolerance);
 

@@ -1,6 +1,6 @@
 #include "app/picture_choice.h"
 
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "app/text_validator.h"
 #include "core/base/error.h"
 
@@ -44,7 +44,7 @@ void add_picture_options(CLI::App& command, PictureChoice& choice) {
         .add_option(
             "--gray", choice.reading.gray, "Gray value of colours: mean (as in the thesis) or luminance")
         ->transform(one_of(gray_rules))
-        ->type_name(listed(gray_rules))
+        ->type_name(choice_list(gray_rules))
         ->default_str("mean");
     command
         .add_option("--gray-steps",

@@ -2,7 +2,7 @@
 // planned here, or one that is told each move.
 #pragma once
 
-#include "app/controller.h"
+#include "app/connected_controller.h"
 #include "app/record_choice.h"
 #include "core/base/clock.h"
 #include "core/cordic_machine/cordic_driver.h"

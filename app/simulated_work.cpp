@@ -313,11 +313,11 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     gcode::MachineProgramBuilder builder(work.machine, options.file, making);
     ToolChangeRecorder recorder(builder);
     gcode::Interpreter reader(options.file, reader_settings(options, work.machine), recorder);
-    constexpr int lines_a_check = 4096;
+    constexpr int lines_per_check = 4096;
     bool more = true;
     for (int line = 0; more; ++line) {
         more = reader.step();
-        if (line % lines_a_check == 0) {
+        if (line % lines_per_check == 0) {
             progress.check();
         }
     }
@@ -397,7 +397,7 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     SimulatedWork work{.file = options.file,
                        .program_file = fs::path(options.out) / "program.ngc",
                        .program_text = plan.listing->text,
-                       .machine = plan.workpiece->machine,
+                       .machine = plan.cutting_setup->machine,
                        .program = *plan.program,
                        .tools = {{.first_block = 0,
                                   .number = opened.project.tool.number,
@@ -410,7 +410,7 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     work.machine_file = project::machine_path(
         opened.project, fs::absolute(options.file).parent_path(), project::assets_folder());
     if (options.part.empty()) {
-        work.part = part_surface(*plan.workpiece);
+        work.part = part_surface(*plan.cutting_setup);
         add_faces(opened.project.surface, *plan.surface, work);
     }
     if (!options.flutes.empty()) {

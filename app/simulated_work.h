@@ -3,7 +3,7 @@
 
 #include "app/part_surface.h"
 #include "core/base/progress.h"
-#include "core/gcode/settings.h"
+#include "core/gcode/reader_settings.h"
 #include "core/kinematics/machine_model.h"
 #include "core/program/program.h"
 #include "core/simulation/collision_bodies.h"
@@ -43,7 +43,7 @@ struct SimulatedWork {
     kinematics::MachineModel machine;
     program::Program program; ///< blocks know their lines
     std::vector<simulation::ToolUse> tools;
-    std::vector<std::string> tool_texts; ///< one a tool, as it was given
+    std::vector<std::string> tool_texts; ///< one per tool, as it was given
     simulation::Stock stock;
     std::string stock_text;
     std::vector<std::string> warnings; ///< a sentence each

@@ -23,7 +23,7 @@ namespace {
 using ReportJson = nlohmann::ordered_json;
 using simulation::Finding;
 using simulation::FindingKind;
-constexpr double bytes_a_megabyte = 1e6;
+constexpr double bytes_per_megabyte = 1e6;
 
 ReportJson findings_json(const simulation::Simulation& found) {
     ReportJson list = ReportJson::array();
@@ -253,7 +253,7 @@ std::string simulation_report_text(const SimulatedWork& work,
     json["mesh"]["edge_mm"] = project::vector(Vec3(field.cell() * mesh.stride));
     json["cost"]["time_s"] = project::rounded(cost.seconds);
     json["cost"]["threads"] = cost.threads;
-    json["cost"]["field_mb"] = project::rounded(static_cast<double>(field.bytes()) / bytes_a_megabyte);
+    json["cost"]["field_mb"] = project::rounded(static_cast<double>(field.bytes()) / bytes_per_megabyte);
     return json.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n";
 }
 
@@ -299,7 +299,7 @@ void print_simulation(const SimulatedWork& work,
     fmt::print("resolution {:.3g} mm, {:.1f} s, {:.0f} MB\n",
                found.field->cell().maxCoeff(),
                cost.seconds,
-               static_cast<double>(found.field->bytes()) / bytes_a_megabyte);
+               static_cast<double>(found.field->bytes()) / bytes_per_megabyte);
 }
 
 } // namespace millwright::app

@@ -14,7 +14,7 @@ namespace millwright::app {
 
 /// What is left against the part.
 struct ComparedPart {
-    std::vector<simulation::Deviation> deviations; ///< one a point of the part
+    std::vector<simulation::Deviation> deviations; ///< one per point of the part
     simulation::ComparisonSummary summary;
     double tolerance = 0.0; ///< mm
 };

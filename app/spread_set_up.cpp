@@ -1,7 +1,7 @@
 #include "app/spread_set_up.h"
 
 #include "app/cost_message.h"
-#include "app/gather.h"
+#include "app/mpi_gather.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
@@ -215,7 +215,7 @@ std::vector<PlaceFigures> SpreadCosts::at(std::span<const SetUpPlace> places, co
                 return costs.over();
             },
         .given_up = [&] { costs.tell_lost(1, say_); }};
-    const bool whole = gather(ranks_, all, progress);
+    const bool whole = mpi_gather(ranks_, all, progress);
     costs.tell_lost(0, say_);
     const std::vector<std::string>& lost = costs.lost();
     if (!lost.empty()) {
@@ -245,7 +245,7 @@ void help_with_costs(const Ranks& ranks,
                 evaluate_places(ranks, cost, places, count_and_tell, own_stop);
             },
         .deserted = [&] { deserted(own.lost()); }};
-    help(ranks, mine, stop);
+    mpi_help(ranks, mine, stop);
 }
 
 } // namespace millwright::app

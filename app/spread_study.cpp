@@ -1,6 +1,6 @@
 #include "app/spread_study.h"
 
-#include "app/gather.h"
+#include "app/mpi_gather.h"
 #include "app/study_message.h"
 #include "app/unfinished_study.h"
 #include "core/base/error.h"
@@ -184,7 +184,7 @@ SpreadStudy gather_study(const Ranks& ranks,
             },
         .over = over,
         .given_up = [&] { gathering.tell_lost(1, news); }};
-    const bool whole = gather(ranks, all, progress);
+    const bool whole = mpi_gather(ranks, all, progress);
     gathering.tell_lost(0, news);
     SpreadStudy result = std::move(gathering).result();
     result.stopped = !whole;
@@ -209,7 +209,7 @@ void help_with_study(const Ranks& ranks,
                                    study_cases(ranks, cases, one, tell, own_stop);
                                },
                            .deserted = [&] { deserted(lost_with_rank_0(ranks, cases, at)); }};
-    help(ranks, mine, stop);
+    mpi_help(ranks, mine, stop);
 }
 
 } // namespace millwright::app

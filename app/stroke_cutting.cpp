@@ -1,16 +1,16 @@
 #include "app/stroke_cutting.h"
 
 #include "app/finite_number.h"
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "app/origin_choice.h"
 #include "app/text_validator.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/closing.h"
-#include "core/plot/left_alone.h"
 #include "core/plot/level_text.h"
 #include "core/plot/ordering.h"
-#include "core/plot/standing_tabs.h"
+#include "core/plot/tab_width.h"
+#include "core/plot/unprocessed_strokes.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>
@@ -103,7 +103,7 @@ plot::CutSettings cut_settings(const Strokes& strokes, const StrokeCutting& opti
         return std::ranges::find(named, level.pen, &plot::Level::pen) != named.end();
     });
     cut.levels.insert(cut.levels.begin(), named.begin(), named.end());
-    cut.levels = plot::with_standing_tabs(std::move(cut.levels), options.plan.tool_diameter);
+    cut.levels = plot::with_tab_widths(std::move(cut.levels), options.plan.tool_diameter);
     return cut;
 }
 
@@ -153,7 +153,7 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
     command
         .add_option("--side", options.plan.side, "Cutter side of closed strokes: on-line, outside or inside")
         ->transform(one_of(sides))
-        ->type_name(listed(sides))
+        ->type_name(choice_list(sides))
         ->default_str("on-line");
     command
         .add_option(
@@ -162,7 +162,7 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
         ->capture_default_str();
     command.add_option("--corners", options.plan.corners, "Corners with --side: sharp or round")
         ->transform(one_of(corner_kinds))
-        ->type_name(listed(corner_kinds))
+        ->type_name(choice_list(corner_kinds))
         ->default_str("sharp");
     command
         .add_option("--hatch", options.plan.hatch_pitch, "Fill closed strokes with lines at this spacing, mm")
@@ -223,8 +223,9 @@ void cut_strokes(const Strokes& as_drawn,
     if (shaped.strokes.empty()) {
         throw Error("there is nothing to cut");
     }
-    if (const std::string left_alone = plot::left_alone(drawn, shaped, plan); !left_alone.empty()) {
-        fmt::print(stderr, "millwright: {}\n", left_alone);
+    if (const std::string unprocessed_strokes = plot::unprocessed_strokes(drawn, shaped, plan);
+        !unprocessed_strokes.empty()) {
+        fmt::print(stderr, "millwright: {}\n", unprocessed_strokes);
     }
     Strokes strokes = std::move(shaped.strokes);
     Steps steps(end, options);

@@ -1,7 +1,7 @@
 // The study of the kinematic error as pictures: largest error, mean error and largest axis deviation.
 #pragma once
 
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "core/studies/kinematic_study.h"
 
 #include <string>

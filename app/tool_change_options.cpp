@@ -1,7 +1,7 @@
 // How tool changes are made, on the command line.
 #include "app/tool_change_options.h"
 
-#include "app/controller.h"
+#include "app/connected_controller.h"
 #include "app/finite_number.h"
 #include "app/usage_error.h"
 #include "core/base/files.h"

@@ -1,7 +1,7 @@
 #include "app/traced_picture.h"
 
 #include "app/finite_number.h"
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "core/base/error.h"
 
 #include <CLI/App.hpp>
@@ -72,7 +72,7 @@ void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
                     tracing.turns,
                     "Turn policy where dark pixels touch at corners: black, white, left, right, ...")
         ->transform(one_of(turn_policies))
-        ->type_name(listed(turn_policies))
+        ->type_name(choice_list(turn_policies))
         ->default_str("minority");
 }
 

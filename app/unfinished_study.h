@@ -2,7 +2,7 @@
 // own, apart from those of a whole study.
 #pragma once
 
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "core/studies/kinematic_study.h"
 
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
 #include "core/project/window_settings.h"
-#include "ui/actions/kept_session.h"
+#include "ui/actions/kept_view_state.h"
 #include "ui/panels/desktop.h"
 #include "ui/render/window_context.h"
 
@@ -22,7 +22,7 @@ namespace millwright::app {
 
 namespace {
 
-std::string title_of(const actions::Workbench& now) {
+std::string title_of(const actions::FrameState& now) {
     const std::string project =
         now.document.file.empty() ? now.project.name : now.document.file.filename().string();
     const std::string name = now.opened ? now.opened->file.filename().string() + " - " + project : project;
@@ -31,43 +31,43 @@ std::string title_of(const actions::Workbench& now) {
 
 /// An event shows a frame or two late: what it asks for is carried out after drawing, and a menu is measured
 /// before it is shown.
-constexpr int frames_an_event = 3;
+constexpr int frames_per_event = 3;
 
 /// Blocks until a frame is to be drawn; counts down `due` frames after an event.
 void wait_for_frame(render::WindowContext& window, const panels::Desktop& desktop, int& due) {
     --due;
     if (window.wait(due > 0 ? 0.0 : desktop.next_change().value_or(-1.0))) {
-        due = frames_an_event;
+        due = frames_per_event;
     }
     while (due <= 0 && !desktop.next_change()) {
-        due = window.wait(-1.0) ? frames_an_event : 0;
+        due = window.wait(-1.0) ? frames_per_event : 0;
     }
 }
 
 /// Until the user closes the window, or the system asks for the end: then without a question, and what has
-/// not been saved stays for the next start. Whatever moves is stopped with the workshop.
-void run_window(render::WindowContext& window, actions::Workshop& workshop, const std::stop_token& system) {
-    panels::Desktop desktop(window, workshop);
-    int due = frames_an_event;
+/// not been saved stays for the next start. Whatever moves is stopped with the app controller.
+void run_window(render::WindowContext& window, actions::AppController& app, const std::stop_token& system) {
+    panels::Desktop desktop(window, app);
+    int due = frames_per_event;
     using Clock = std::chrono::steady_clock;
     Clock::time_point before = Clock::now();
     while (true) {
         const Clock::time_point now = Clock::now();
-        (void)workshop.advance(std::chrono::duration<double>(now - before).count());
+        (void)app.advance(std::chrono::duration<double>(now - before).count());
         before = now;
         desktop.frame();
         window.present();
-        window.set_title(title_of(workshop.look()));
-        workshop.session().window = window.place();
+        window.set_title(title_of(app.look()));
+        app.view_state().window = window.place();
         if (window.close_requested()) {
             window.keep_open();
-            workshop.run("file.quit");
+            app.run("file.quit");
         }
         if (system.stop_requested()) {
             throw Cancelled();
         }
-        if (workshop.session().quit) {
-            workshop.close();
+        if (app.view_state().quit) {
+            app.close();
             return;
         }
         wait_for_frame(window, desktop, due);
@@ -75,32 +75,32 @@ void run_window(render::WindowContext& window, actions::Workshop& workshop, cons
 }
 
 /// What moves is stopped; motors that may have kept their power are told of where somebody may read it.
-void let_go(actions::Workshop& workshop) {
-    workshop.keep_window_settings();
-    workshop.controller().disconnect();
-    workshop.controller().wait_idle();
-    if (const auto failure = workshop.controller().view().failure) {
+void let_go(actions::AppController& app) {
+    app.keep_window_settings();
+    app.connection().disconnect();
+    app.connection().wait_idle();
+    if (const auto failure = app.connection().view().failure) {
         fmt::print(stderr, "millwright: {}\n", to_text(*failure));
     }
 }
 
 /// The window is gone without a word: whatever moves is stopped, as at the end that the system asks for, and
 /// what has not been saved stays for the next start. Nothing that belongs to a display may be touched again.
-[[noreturn]] void end_without_display(std::unique_ptr<actions::Workshop>& workshop) {
+[[noreturn]] void end_without_display(std::unique_ptr<actions::AppController>& app) {
     fmt::print(stderr, "millwright: the display connection is lost; all motion is stopped\n");
-    workshop.reset();
+    app.reset();
     constexpr int failed = 1;
     std::_Exit(failed);
 }
 
 /// Of the window when it was last closed.
 render::WindowPlace last_place() {
-    actions::Session last;
+    actions::ViewState last;
     try {
         (void)actions::restore(
             last,
             project::read_window_settings(project::window_settings_place(project::recent_files_place())));
-    } catch (const Error&) { // the workshop says it in the window
+    } catch (const Error&) { // the app controller says it in the window
         return {};
     }
     return last.window;
@@ -111,23 +111,22 @@ render::WindowPlace last_place() {
 void run_workbench(const std::optional<std::filesystem::path>& file) {
     const Interrupt interrupt; // before any thread
     render::WindowContext window({.place = last_place()});
-    auto workshop = std::make_unique<actions::Workshop>(
-        actions::WorkshopOptions{.assets = project::assets_folder(),
-                                 .log_folder = project::job_logs_place(),
-                                 .settings = project::recent_files_place(),
-                                 .recovery = project::recovery_place(),
-                                 .wake = [&window] { window.request_redraw(); }});
-    window.on_display_lost([&workshop] { end_without_display(workshop); });
-    window.on_drop(
-        [&workshop](const std::vector<std::filesystem::path>& files) { workshop->receive(files); });
+    auto app = std::make_unique<actions::AppController>(
+        actions::AppOptions{.assets = project::assets_folder(),
+                            .log_folder = project::job_logs_place(),
+                            .settings = project::recent_files_place(),
+                            .recovery = project::recovery_place(),
+                            .wake = [&window] { window.request_redraw(); }});
+    window.on_display_lost([&app] { end_without_display(app); });
+    window.on_drop([&app](const std::vector<std::filesystem::path>& files) { app->receive(files); });
     if (file) {
-        workshop->receive({*file});
+        app->receive({*file});
     }
     const std::stop_callback wake(interrupt.token(), [&window] { window.request_redraw(); });
     try {
-        run_window(window, *workshop, interrupt.token());
+        run_window(window, *app, interrupt.token());
     } catch (const Cancelled&) {
-        let_go(*workshop);
+        let_go(*app);
         throw;
     }
 }

@@ -1,4 +1,4 @@
-// The desktop program: the window, its event loop, the workshop behind it.
+// The desktop program: the window, its event loop, the app controller behind it.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,7 @@
 
 namespace millwright::app {
 
-/// Opens the workbench, with a project or G-code `file` if one is named, and returns when the window is
+/// Opens the window, with a project or G-code `file` if one is named, and returns when the window is
 /// closed. Throws Error if there is no display or no OpenGL; a file that cannot be opened is told in the
 /// window.
 void run_workbench(const std::optional<std::filesystem::path>& file);

@@ -32,7 +32,7 @@ geometry::BezierPatch patch(const std::string& preset) {
     return geometry::surface_preset(preset).make().patch(geometry::PatchId{0});
 }
 
-void tell(benchmark::State& state, const grid::ImproverState& found, const Figures& prototype) {
+void tell(benchmark::State& state, const grid::OptimiserState& found, const Figures& prototype) {
     state.counters["uniform_max"] = found.start.max;
     state.counters["uniform_mean"] = found.start.mean;
     state.counters["chain_max"] = found.of_best.max;

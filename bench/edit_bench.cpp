@@ -30,9 +30,9 @@ void surface_path_and_error(benchmark::State& state) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const plan::Workpiece workpiece = plan::workpiece_of(project, folders());
-        benchmark::DoNotOptimize(
-            plan::evaluate(workpiece, plan::uniform_outcome(project.grid), plan::live_sampling, Progress()));
+        const plan::CuttingSetup cutting_setup = plan::cutting_setup_of(project, folders());
+        benchmark::DoNotOptimize(plan::evaluate(
+            cutting_setup, plan::uniform_outcome(project.grid), plan::live_sampling, Progress()));
     }
 }
 
@@ -40,11 +40,11 @@ void optimised_grid(benchmark::State& state, plan::Effort effort) {
     Project project = sample(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         edit(project);
-        const plan::Workpiece workpiece = plan::workpiece_of(project, folders());
+        const plan::CuttingSetup cutting_setup = plan::cutting_setup_of(project, folders());
         const plan::Evaluation uniform = plan::evaluate(
-            workpiece, plan::uniform_outcome(project.grid), plan::sampling_of(effort), Progress());
+            cutting_setup, plan::uniform_outcome(project.grid), plan::sampling_of(effort), Progress());
         benchmark::DoNotOptimize(plan::improved_evaluation(
-            {GridMethod::tracks, project.grid, workpiece, effort}, uniform, Progress()));
+            {GridMethod::tracks, project.grid, cutting_setup, effort}, uniform, Progress()));
     }
 }
 

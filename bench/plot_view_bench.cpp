@@ -2,7 +2,7 @@
 // while it is derived, and what a frame costs while the view is panned and zoomed.
 #include "bench/visitor.h"
 #include "bench/written_file.h"
-#include "ui/actions/plot_bench.h"
+#include "ui/actions/plot_workspace.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ void open_plot(benchmark::State& state) {
         Visitor visitor;
         const Clock::time_point start = Clock::now();
         visitor.open(file.path());
-        const auto made = [&] { return visitor.workshop().plot().latest(); };
+        const auto made = [&] { return visitor.app().plot().latest(); };
         double first = 0.0;
         while (!made() || !made()->finished) {
             visitor.turn();
@@ -77,7 +77,7 @@ void open_plot(benchmark::State& state) {
         state.counters["first_s"] = first;
         state.counters["whole_s"] = seconds_since(start);
         state.counters["opening_cpu_ms"] = 1e3 * visitor.longest_cpu();
-        visitor.workshop().run("plot.flat");
+        visitor.app().run("plot.flat");
         visitor.turn();
         const FrameCost pan = cost_of(visitor, [](const render::Camera& camera, int n) {
             return camera.panned({n % 2 == 0 ? 6.0 : -5.0, 2.0}, bench::window);

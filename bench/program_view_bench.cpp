@@ -21,13 +21,13 @@ using bench::Visitor;
 
 /// Finishing passes over a wavy surface, as a CAM program writes them.
 std::string program_text(int lines) {
-    constexpr int moves_a_pass = 1000;
+    constexpr int moves_per_pass = 1000;
     std::string text = "G21 G90 G94 G54\nM3 S12000\nG0 Z30\nG1 F1500\n";
     for (int n = 0; n < lines; ++n) {
-        const int pass = n / moves_a_pass;
-        const int along = pass % 2 == 0 ? n % moves_a_pass : moves_a_pass - 1 - n % moves_a_pass;
+        const int pass = n / moves_per_pass;
+        const int along = pass % 2 == 0 ? n % moves_per_pass : moves_per_pass - 1 - n % moves_per_pass;
         const double x = 0.2 * along;
-        const double y = 0.2 * (pass % moves_a_pass) + 0.0002 * (pass / moves_a_pass);
+        const double y = 0.2 * (pass % moves_per_pass) + 0.0002 * (pass / moves_per_pass);
         fmt::format_to(std::back_inserter(text),
                        "X{:.4f} Y{:.4f} Z{:.4f}\n",
                        x,
@@ -38,7 +38,7 @@ std::string program_text(int lines) {
 }
 
 /// Of text index, path in memory and on the graphics processor, and what is in force when.
-double bytes_a_move(const plan::OpenedProgram& opened) {
+double bytes_per_move(const plan::OpenedProgram& opened) {
     const auto moves = static_cast<double>(opened.path.point_count() - 1);
     const auto on_graphics = static_cast<double>(opened.path.point_count() * sizeof(render::PathVertex));
     return (static_cast<double>(opened.path.bytes() + opened.execution->bytes()) + on_graphics) / moves;
@@ -67,7 +67,7 @@ void open_program(benchmark::State& state) {
         state.counters["frames"] = frames;
         state.counters["longest_ms"] = 1e3 * visitor.longest();
         state.counters["longest_cpu_ms"] = 1e3 * visitor.longest_cpu();
-        state.counters["bytes_a_move"] = bytes_a_move(*visitor.opened());
+        state.counters["bytes_per_move"] = bytes_per_move(*visitor.opened());
         const Clock::time_point turning = Clock::now();
         const double before = processor_time(CLOCK_PROCESS_CPUTIME_ID);
         constexpr int turns = 20;

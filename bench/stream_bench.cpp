@@ -75,7 +75,7 @@ void show(benchmark::State& state, std::vector<int> planned, double seconds) {
     const auto share = [&](double of) {
         return planned[static_cast<std::size_t>(of * static_cast<double>(planned.size() - 1))];
     };
-    state.counters["blocks_a_s"] = blocks / seconds;
+    state.counters["blocks_per_s"] = blocks / seconds;
     state.counters["planned_least"] = planned.front();
     state.counters["planned_1_percent"] = share(0.01);
     state.counters["planned_median"] = share(0.5);

@@ -35,20 +35,20 @@ inline double processor_time(clockid_t whose) {
 class Visitor {
 public:
     Visitor()
-        : context_(window), workshop_({.assets = project::assets_folder(),
-                                       .log_folder = {},
-                                       .settings = {},
-                                       .recovery = {},
-                                       .wake = [] {}}),
-          desktop_(context_, workshop_) {
-        workshop_.wait_idle();
+        : context_(window), app_({.assets = project::assets_folder(),
+                                  .log_folder = {},
+                                  .settings = {},
+                                  .recovery = {},
+                                  .wake = [] {}}),
+          desktop_(context_, app_) {
+        app_.wait_idle();
         for (int n = 0; n < 3; ++n) {
             turn();
         }
         forget_longest();
     }
 
-    void open(const std::filesystem::path& file) { workshop_.open(file); }
+    void open(const std::filesystem::path& file) { app_.open(file); }
 
     /// One frame with the camera a little further.
     void turn() {
@@ -61,7 +61,7 @@ public:
         const Clock::time_point start = Clock::now();
         const double cpu = processor_time(CLOCK_THREAD_CPUTIME_ID);
         desktop_.window().view().viewport().set_camera(camera);
-        (void)workshop_.advance(1.0 / 60.0);
+        (void)app_.advance(1.0 / 60.0);
         desktop_.frame(render::InputState{});
         context_.present();
         glFinish();
@@ -69,8 +69,8 @@ public:
         longest_cpu_ = std::max(longest_cpu_, processor_time(CLOCK_THREAD_CPUTIME_ID) - cpu);
     }
 
-    [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() { return workshop_.look().opened; }
-    [[nodiscard]] actions::Workshop& workshop() { return workshop_; }
+    [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() { return app_.look().opened; }
+    [[nodiscard]] actions::AppController& app() { return app_; }
     [[nodiscard]] const render::Camera& camera() { return desktop_.window().view().viewport().camera(); }
     void forget_longest() { longest_ = longest_cpu_ = 0.0; }
     [[nodiscard]] double longest() const { return longest_; }
@@ -78,7 +78,7 @@ public:
 
 private:
     render::OffscreenContext context_;
-    actions::Workshop workshop_;
+    actions::AppController app_;
     panels::Desktop desktop_;
     double longest_ = 0.0, longest_cpu_ = 0.0; ///< s
 };

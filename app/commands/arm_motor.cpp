@@ -1,7 +1,7 @@
 #include "app/commands/arm_motor.h"
 
 #include "app/arm_choice.h"
-#include "app/pmac_talk.h"
+#include "app/pmac_connection.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
@@ -40,12 +40,12 @@ struct ArmMotorOptions {
 };
 
 int offset(const ArmMotorOptions& options) {
-    PmacTalk talk(options.port, options.arm);
-    talk.let_lines_give_power(); // to the motor that creeps
+    PmacConnection connection(options.port, options.arm);
+    connection.let_lines_give_power(); // to the motor that creeps
     pmac::OffsetSearch search;
     search.from = options.from;
     search.most_way = options.most_way;
-    const pmac::OffsetFound found = pmac::find_offset(talk.card(), options.motor, search);
+    const pmac::OffsetFound found = pmac::find_offset(connection.card(), options.motor, search);
     fmt::print("motor {}: creeps backward up to Ix29 = {}, forward from {}; the middle is {} (it was {})\n"
                "at most {:.0f} counts from its start position; the motor is disabled now\n",
                options.motor,
@@ -55,7 +55,7 @@ int offset(const ArmMotorOptions& options) {
                found.before,
                found.farthest);
     if (options.apply) {
-        set_motor_variable(talk.card(), options.motor, 29, found.middle);
+        set_motor_variable(connection.card(), options.motor, 29, found.middle);
         fmt::print("I{}29={}; use SAVE to keep it\n", options.motor, found.middle);
     }
     return 0;
@@ -113,11 +113,11 @@ void expect_step(const ArmMotorOptions& options) {
 
 int step(const ArmMotorOptions& options) {
     expect_step(options);
-    PmacTalk talk(options.port, options.arm);
+    PmacConnection connection(options.port, options.arm);
     if (options.power) {
-        talk.give_power();
+        connection.give_power();
     }
-    const pmac::StepResponse response = pmac::step_test(talk.card(), options.motor, options.step);
+    const pmac::StepResponse response = pmac::step_test(connection.card(), options.motor, options.step);
     fmt::print("motor {}: rise {}, overshoot {:.1f} %, settled {}, {:+.1f} counts at the end\n",
                options.motor,
                seconds(response.rise_time),
@@ -139,11 +139,12 @@ int step(const ArmMotorOptions& options) {
 }
 
 int direction(const ArmMotorOptions& options) {
-    PmacTalk talk(options.port, options.arm);
+    PmacConnection connection(options.port, options.arm);
     if (options.power) {
-        talk.give_power();
+        connection.give_power();
     }
-    const pmac::DirectionFound found = pmac::direction_check(talk.card(), options.motor, options.direction);
+    const pmac::DirectionFound found =
+        pmac::direction_check(connection.card(), options.motor, options.direction);
     fmt::print("motor {}: {}{} gave {:+.0f} counts in a jog, {:+.0f} in a program: {}\n",
                options.motor,
                found.axis,

@@ -2,7 +2,7 @@
 
 #include "app/commands/cordic_source.h"
 #include "app/interrupt.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/progress_printer.h"
 #include "core/base/error.h"
 #include "core/cordic_study/accuracy.h"

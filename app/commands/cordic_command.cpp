@@ -8,7 +8,7 @@
 #include "app/commands/cordic_run.h"
 #include "app/commands/cordic_sew.h"
 #include "app/commands/cordic_source.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"

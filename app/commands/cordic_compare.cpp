@@ -5,7 +5,7 @@
 #include "core/base/files.h"
 #include "core/cordic/sequence.h"
 #include "core/cordic_control/mcs51_line.h"
-#include "core/cordic_control/sewing.h"
+#include "core/cordic_control/stitch_timing.h"
 #include "core/cordic_study/comparison.h"
 
 #include <CLI/Config.hpp>

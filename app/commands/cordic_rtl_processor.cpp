@@ -1,7 +1,7 @@
 #include "app/commands/cordic_rtl_processor.h"
 
 #include "app/commands/cordic_source.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "core/base/files.h"
 #include "core/cordic_rtl/processor_rtl.h"
 

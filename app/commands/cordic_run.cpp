@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/cordic/endless_watch.h"
+#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
 
@@ -59,12 +59,12 @@ void run_traced(cordic::Processor& processor,
     constexpr std::size_t much = 1U << 20U; // a long run has gigabytes of waves
     cordic::VcdWriter waves(processor.format(), options.clock_hz);
     FileWriter file(options.trace);
-    cordic::EndlessWatch watch;
+    cordic::LoopDetector watch;
     const std::int64_t most = options.most_clocks.value_or(most_clocks_of(options.source, options.choice));
     for (std::int64_t n = 1; n <= most && processor.state().stop == cordic::Stop::none; ++n) {
         processor.clock();
         waves.add(processor.state());
-        if (!options.most_clocks && n % cordic::EndlessWatch::interval == 0 && watch.came_back(processor)) {
+        if (!options.most_clocks && n % cordic::LoopDetector::interval == 0 && watch.came_back(processor)) {
             throw goes_round(processor, program, options.source);
         }
         if (waves.size() >= much) {

@@ -2,7 +2,7 @@
 
 #include "app/commands/cordic_source.h"
 #include "core/base/counted.h"
-#include "core/cordic_control/sewing.h"
+#include "core/cordic_control/stitch_timing.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -21,7 +21,7 @@ namespace {
 struct CordicSewOptions {
     CordicSource source;
     CordicChoice choice;
-    cordic::Sewing sewing;
+    cordic::StitchSettings sewing;
     double clock_hz = 8e6;
     std::optional<std::int64_t> most_clocks;
     bool json = false;
@@ -41,8 +41,8 @@ int sew(const CordicSewOptions& options) {
     if (processor.state().stop != cordic::Stop::halted) {
         throw not_at_its_end(processor, program, options.source, options.choice);
     }
-    const cordic::SewingRun sewn =
-        cordic::sew(options.sewing, cordic::stitches_of(processor, options.clock_hz));
+    const cordic::StitchTiming sewn =
+        cordic::time_stitches(options.sewing, cordic::stitches_of(processor, options.clock_hz));
     const cordic::StitchTimes one = cordic::stitch_times(options.sewing, 0.0);
     const std::size_t first_late = sewn.late.empty() ? 0 : sewn.late.front() + 1; // 0: none
     const int late_line =

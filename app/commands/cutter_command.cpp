@@ -3,7 +3,7 @@
 #include "app/finite_number.h"
 #include "app/gouges.h"
 #include "app/interrupt.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
 #include "core/base/counted.h"
@@ -116,12 +116,12 @@ int cut(const CutterOptions& options) {
     plan::add_cut_study(plan, project, progress);
     printer.finish();
     const PostedText text =
-        posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
+        posted(*plan.program, plan.cutting_setup->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;
     OutputSet set{{{"cut.json", plan::cut_report_text(project, plan)},
-                   {"surface.csv", plan::surface_csv(*plan.workpiece, plan.cut->swept)}},
+                   {"surface.csv", plan::surface_csv(*plan.cutting_setup, plan.cut->swept)}},
                   {},
                   std::string(program_kind)};
     if (writes) {
@@ -132,7 +132,7 @@ int cut(const CutterOptions& options) {
     write_outputs(options.out, set, opened.file);
     print_notes(text);
     fmt::print("tool: {}\n", project::tool_text(project.tool));
-    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.cutting_setup->machine));
     print_cutter_summary(plan, project);
     print_why_higher(project, plan);
     if (const std::string why = plan::why_not_kept(project, *plan.program_path(project)); !why.empty()) {

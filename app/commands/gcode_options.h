@@ -3,7 +3,7 @@
 
 #include "app/commands/gcode_pulses.h"
 #include "app/posting.h"
-#include "core/gcode/settings.h"
+#include "core/gcode/reader_settings.h"
 #include "core/motion/planner.h"
 
 #include <memory>

@@ -1,6 +1,6 @@
 #include "app/commands/import_command.h"
 
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "app/usage_error.h"
 #include "app/watched_work.h"
 #include "core/base/counted.h"
@@ -418,7 +418,7 @@ void add_import_command(CLI::App& app, Command& chosen) {
                     options->mm_per_unit,
                     "Unit of a mesh or of points, whose file does not state it (default: mm)")
         ->transform(one_of(units))
-        ->type_name(listed(units));
+        ->type_name(choice_list(units));
     command
         .add_option(
             "--deviation", options->deviation, "CSV file for the distance of each point from the surface")

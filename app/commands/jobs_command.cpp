@@ -3,7 +3,7 @@
 #include "app/given_options.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
-#include "core/jobs/way_on.h"
+#include "core/jobs/resume_point.h"
 #include "core/project/recent_files.h"
 
 #include <CLI/Config.hpp>
@@ -70,7 +70,7 @@ void say_how_it_goes_on(const jobs::JobStory& story) {
     if (story.start.driver == "points") {
         return say_how_it_is_played_again(story.start);
     }
-    const jobs::WayOn way = jobs::way_on(story);
+    const jobs::ResumePoint way = jobs::resume_point(story);
     const bool from_line = way.why_the_beginning.empty();
     const LogStart& start = story.start;
     const bool from_here = from_line && (start.driver == "stream" || start.driver == "records");

@@ -1,6 +1,6 @@
 #include "app/commands/join_command.h"
 
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/joined_surface.h"
@@ -120,7 +120,7 @@ void add_join_command(CLI::App& app, Command& chosen) {
     const std::map<std::string, Continuity> kinds{{"C0", Continuity::position}, {"C1", Continuity::tangent}};
     command.add_option("--continuity", options->continuity, "C0: no gap; C1 (default): no gap and no edge")
         ->transform(one_of(kinds))
-        ->type_name(listed(kinds));
+        ->type_name(choice_list(kinds));
     command
         .add_option("--gap",
                     options->gap_mm,

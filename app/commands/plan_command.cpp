@@ -2,7 +2,7 @@
 
 #include "app/gouges.h"
 #include "app/interrupt.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/posting.h"
 #include "core/base/counted.h"
 #include "core/base/text.h"
@@ -10,10 +10,10 @@
 #include "core/plan/cut_remarks.h"
 #include "core/plan/cut_study.h"
 #include "core/plan/grids.h"
-#include "core/plan/left_out.h"
 #include "core/plan/report.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
 #include "core/toolpath/shortest_sequence.h"
@@ -98,7 +98,7 @@ void print_links(const plan::Plan& plan) {
     if (!plan.grid(GridMethod::chain).evaluation) {
         return;
     }
-    const bool turns = !plan.workpiece->machine.rotary_axes().empty();
+    const bool turns = !plan.cutting_setup->machine.rotary_axes().empty();
     const auto figure = [](double value, int decimals) { // of nodes that are never cut there may be none
         return std::isfinite(value) ? fixed(value, decimals) : std::string("-");
     };
@@ -113,16 +113,16 @@ void print_links(const plan::Plan& plan) {
                "best max",
                "best mean",
                "best axis");
-    for (const grid::ImproverLink& link : plan.grid(GridMethod::chain).evaluation->outcome.links) {
+    for (const grid::ChainStage& stage : plan.grid(GridMethod::chain).evaluation->outcome.stages) {
         fmt::print("{:<40} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}{}\n",
-                   link.name,
-                   figure(link.reached.max, 4),
-                   figure(link.reached.mean, 4),
-                   axis(link.reached),
-                   figure(link.of_best.max, 4),
-                   figure(link.of_best.mean, 4),
-                   axis(link.of_best),
-                   link.refused.empty() ? std::string() : "  not used: " + link.refused);
+                   stage.name,
+                   figure(stage.reached.max, 4),
+                   figure(stage.reached.mean, 4),
+                   axis(stage.reached),
+                   figure(stage.of_best.max, 4),
+                   figure(stage.of_best.mean, 4),
+                   axis(stage.of_best),
+                   stage.refused.empty() ? std::string() : "  not used: " + stage.refused);
     }
 }
 
@@ -140,7 +140,7 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
             print_figures(id, *evaluation);
         } else if (plan.grid(method).failure) {
             fmt::print("{:<10} failed\n", id);
-        } else if (plan::is_left_out(project, method)) {
+        } else if (plan::is_comparison_skipped(project, method)) {
             fmt::print("{:<10} skipped\n", id);
         }
     }
@@ -149,7 +149,7 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
     }
     fmt::print("distances: {}\n", plan::checked_text(project));
     print_plan_notes(plan);
-    if (const std::string left_out = plan::left_out_sentence(project); !left_out.empty()) {
+    if (const std::string left_out = plan::skipped_comparisons_sentence(project); !left_out.empty()) {
         fmt::print("{}\n", left_out);
     }
     print_links(plan);
@@ -158,7 +158,7 @@ void print_plan_summary(const plan::Plan& plan, const project::Project& project)
         fmt::print("strategy: {}\n", plan::strategy_text(project));
     }
     fmt::print("tool: {}\n", project::tool_text(project.tool));
-    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.workpiece->machine));
+    fmt::print("tool length: {}\n", project::tool_length_text(project.tool, plan.cutting_setup->machine));
     fmt::print("{}, path {} mm, estimated time {}\n",
                counted(chosen.toolpath.points.size(), "point"),
                fixed(chosen.path_length, 1),
@@ -182,11 +182,11 @@ project::Project changed(project::Project project, const PlanOptions& options) {
 }
 
 void print_path(std::string_view name,
-                const plan::Workpiece& workpiece,
+                const plan::CuttingSetup& cutting_setup,
                 const plan::Evaluation& of,
                 const std::optional<double>& time) {
     const double step =
-        toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
+        toolpath::largest_rotary_step(cutting_setup.machine, of.toolpath, of.axes, toolpath::MoveKind::track);
     fmt::print("{:<10} {:>9} {:>9} {:>9} {:>9} {:>13} {:>13} {:>9}\n",
                name,
                of.toolpath.points.size(),
@@ -218,9 +218,9 @@ void print_sequencing(const plan::Plan& plan, const project::Project& project) {
                "rotation deg",
                "in a cut deg",
                "time s");
-    print_path("before", *plan.workpiece, *plan.unsequenced, plan.unsequenced_time);
+    print_path("before", *plan.cutting_setup, *plan.unsequenced, plan.unsequenced_time);
     print_path(project::row_of(project::sequencing_goals(), project.sequencing.goal).id,
-               *plan.workpiece,
+               *plan.cutting_setup,
                *plan.program_path(project),
                plan.trajectory->duration());
 }
@@ -261,7 +261,7 @@ int plan(const PlanOptions& options) {
     const OutputFolder folder(options.out);
     const plan::Plan plan = planned(opened, plan::Scope::report, interrupt.token());
     const PostedText text =
-        posted(*plan.program, plan.workpiece->machine, options.post, opened.file.stem().string());
+        posted(*plan.program, plan.cutting_setup->machine, options.post, opened.file.stem().string());
     const std::string gouges = gouges_of(opened, plan);
     const bool writes = gouges.empty() || options.allow_gouges;
     const std::string program = "program." + text.format.extension;

@@ -5,7 +5,7 @@
 #include "app/commands/plot_points.h"
 #include "app/commands/plot_program.h"
 #include "app/finite_number.h"
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "app/origin_choice.h"
 #include "app/stroke_cutting.h"
 #include "app/watched_work.h"
@@ -71,7 +71,7 @@ struct PlotOptions {
     bool json = false;
     bool solid = false;
     bool no_air = false;
-    plot::ReaderSettings reading;
+    plot::HpglSettings reading;
     plot::DecodeSettings decode;
     std::optional<double> fastest;
     int decimals = 2;
@@ -118,7 +118,7 @@ plot::PlotterUnit unit_of(const std::string& text) {
 }
 
 Plot read_plot(const PlotOptions& options) {
-    plot::ReaderSettings settings = options.reading;
+    plot::HpglSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
     settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
     settings.dashes = !options.solid;
@@ -341,7 +341,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
         ->check(above_zero());
     command.add_option("--fill", options->reading.fill, "Filled areas: hatched, outline or none")
         ->transform(one_of(by_id(project::fill_modes())))
-        ->type_name(listed(by_id(project::fill_modes())))
+        ->type_name(choice_list(by_id(project::fill_modes())))
         ->default_str(options->reading.fill == plot::FillMode::outline ? "outline" : "hatched");
     command.add_flag("--solid", options->solid, "Draw dashed lines solid");
     command
@@ -350,7 +350,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
             options->reading.line_ends,
             "Line breaks in numbers: automatic (as the file shows), join (wrapped anywhere) or separate")
         ->transform(one_of(by_id(project::line_ends())))
-        ->type_name(listed(by_id(project::line_ends())))
+        ->type_name(choice_list(by_id(project::line_ends())))
         ->default_str("automatic");
     command.add_flag("--strict", options->strict, "Stop reading at the first error");
     add_program_options(command, options->program);
@@ -391,11 +391,11 @@ void add_decode(CLI::App& group, const std::shared_ptr<PlotOptions>& options, Co
     add_drawing_origin(command, options->cutting.cutting.origin);
     command.add_option("--mode", decoding.mode, "Equal steps per segment, or along whole paths")
         ->transform(one_of(modes))
-        ->type_name(listed(modes))
+        ->type_name(choice_list(modes))
         ->default_str("segments");
     command.add_option("--rounding", decoding.rounding, "Rounding of the number of steps per segment")
         ->transform(one_of(roundings))
-        ->type_name(listed(roundings))
+        ->type_name(choice_list(roundings))
         ->default_str("nearest");
     command.add_option("--fastest", options->fastest, "Velocity that rounding must not exceed, mm/s")
         ->check(above_zero());

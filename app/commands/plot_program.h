@@ -1,4 +1,4 @@
-// `millwright plot` of a G-code program: the same commands on the same road, with the heights that it has.
+// `millwright plot` of a G-code program: the same commands by the same stages, with the heights that it has.
 #pragma once
 
 #include "app/stroke_cutting.h"

@@ -2,14 +2,14 @@
 
 #include "app/arm_choice.h"
 #include "app/interrupt.h"
-#include "app/pmac_care.h"
-#include "app/pmac_talk.h"
+#include "app/pmac_connection.h"
+#include "app/pmac_protections.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/pmac/driver/placed_refusals.h"
 #include "core/pmac/driver/pmac_driver.h"
 #include "core/pmac/driver/pmac_file.h"
+#include "core/pmac/driver/refused_lines.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -97,7 +97,7 @@ public:
             throw Error("it contains no command", path);
         }
         const drivers::CommandAnswer answer = answer_to(driver_->load(lines));
-        print(answer, pmac::with_places(answer.text, file, path + ":"));
+        print(answer, pmac::with_line_numbers(answer.text, file, path + ":"));
         wait_for_rest();
         warn_of_protections(*driver_, clock_);
         return is_done(answer) && file.left_out == 0;

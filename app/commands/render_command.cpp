@@ -1,7 +1,7 @@
 #include "app/commands/render_command.h"
 
 #include "app/interrupt.h"
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_solids.h"
 #include "core/project/assets.h"
@@ -104,7 +104,7 @@ std::vector<std::string> view_names() {
 viewport::MachineSolids solids_of(const OpenedProject& opened, const plan::Plan& plan) {
     const auto file = project::machine_path(opened.project, opened.folders.project, opened.folders.assets);
     try {
-        return kinematics::read_machine_solids(file, plan.workpiece->machine);
+        return kinematics::read_machine_solids(file, plan.cutting_setup->machine);
     } catch (const Error& error) {
         const std::filesystem::path& bodies = error.diagnostic().place.file;
         std::error_code missing;
@@ -155,7 +155,7 @@ void add_render_command(CLI::App& app, Command& chosen) {
             [options](const std::string& name) { options->look.side = render_sides.at(name); },
             "Viewing direction (default: iso); oblique is the thesis's view")
         ->check(CLI::IsMember(render_sides).description(""))
-        ->type_name(listed(render_sides));
+        ->type_name(choice_list(render_sides));
     command
         .add_option_function<std::vector<std::string>>(
             "--color",

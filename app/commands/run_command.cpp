@@ -1,13 +1,13 @@
 #include "app/commands/run_command.h"
 
-#include "app/controller.h"
+#include "app/connected_controller.h"
 #include "app/driver_options.h"
 #include "app/gouges.h"
 #include "app/interrupt.h"
+#include "app/job_series.h"
 #include "app/planned_machine.h"
 #include "app/posting.h"
 #include "app/progress_printer.h"
-#include "app/series.h"
 #include "core/base/error.h"
 #include "core/jobs/run_from_line.h"
 #include "core/machine/drivers_by_name.h"
@@ -26,7 +26,7 @@ namespace millwright::app {
 namespace {
 
 struct RunOptions {
-    SeriesChoice series;
+    JobSeriesChoice series;
     PlannedMachineChoice machine; ///< its controller also for grbl
     PostChoice post{.post = ""};  ///< empty: that of the driver
     std::optional<double> clearance;
@@ -44,13 +44,13 @@ std::string post_of_driver(const std::string& driver, const kinematics::MachineM
 jobs::Job job_of(const OpenedProject& opened, const plan::Plan& plan, const RunOptions& options) {
     PostChoice choice = options.post;
     if (choice.post.empty()) {
-        choice.post = post_of_driver(options.machine.driver, plan.workpiece->machine);
+        choice.post = post_of_driver(options.machine.driver, plan.cutting_setup->machine);
     }
     jobs::Job job;
     job.name = opened.file.stem().string();
     job.project = opened.file.string();
     job.started_at = now_for_people();
-    job.machine = std::make_shared<const kinematics::MachineModel>(plan.workpiece->machine);
+    job.machine = std::make_shared<const kinematics::MachineModel>(plan.cutting_setup->machine);
     program::Program program = *plan.program;
     if (options.machine.driver == "cordic") { // which waits for nobody to change a tool
         program.tool.reset();
@@ -86,12 +86,12 @@ plan::Plan fit_plan(const OpenedProject& opened, const RunOptions& options, cons
 int run_plan(const RunOptions& options) {
     check(options.machine);
     const Interrupt interrupt(Suspending::refused);
-    std::optional<Controller> controller;
+    std::optional<ConnectedController> controller;
     if (options.machine.driver == "grbl") {
         controller.emplace(options.machine.controller, options.series.log);
     }
     PlannedMachine planned_machine(options.machine);
-    SeriesSteps steps;
+    JobSeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         const OpenedProject opened = open_project(file);
         jobs::Job job = job_of(opened, fit_plan(opened, options, interrupt.token()), options);
@@ -116,7 +116,7 @@ int run_plan(const RunOptions& options) {
     if (controller && options.machine.controller.check_only) {
         steps.instead = [&](const jobs::Job& job) { controller->check_there(job, interrupt.token()); };
     }
-    return run_series(options.series, steps, interrupt.token());
+    return run_job_series(options.series, steps, interrupt.token());
 }
 
 } // namespace
@@ -124,7 +124,7 @@ int run_plan(const RunOptions& options) {
 void add_run_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<RunOptions>();
     CLI::App& command = *app.add_subcommand("run", "Run the programs of projects on a machine");
-    add_series_options(command, options->series, "Project files");
+    add_job_series_options(command, options->series, "Project files");
     add_clearance_option(command, options->clearance);
     command.add_option("--driver", options->machine.driver, "Machine to run on")
         ->required()

@@ -1,13 +1,13 @@
 #include "app/commands/send_command.h"
 
 #include "app/arm_choice.h"
-#include "app/controller.h"
+#include "app/connected_controller.h"
 #include "app/diagnostics.h"
 #include "app/driver_options.h"
 #include "app/interrupt.h"
+#include "app/job_series.h"
 #include "app/origin_choice.h"
 #include "app/planned_machine.h"
-#include "app/series.h"
 #include "app/tool_change_options.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
@@ -38,7 +38,7 @@ namespace millwright::app {
 namespace {
 
 struct SendOptions {
-    SeriesChoice series;
+    JobSeriesChoice series;
     PlannedMachineChoice machine; ///< its controller also for grbl and linuxcnc
     std::string model;            ///< of a machine that is moved position by position
     std::vector<double> at;       ///< where it stands: X, Y, Z; empty: at the program's start
@@ -152,8 +152,8 @@ jobs::Job job_from_file(const SendOptions& options, const std::string& file) {
 /// To a controller that plans for itself.
 int send_text(const SendOptions& options) {
     const Interrupt interrupt(Suspending::refused);
-    Controller controller(options.machine.controller, options.series.log);
-    SeriesSteps steps;
+    ConnectedController controller(options.machine.controller, options.series.log);
+    JobSeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         jobs::Job job = ready(job_from_file(options, file), options, from_line);
         controller.check(job);
@@ -165,14 +165,14 @@ int send_text(const SendOptions& options) {
     if (options.machine.controller.check_only) {
         steps.instead = [&](const jobs::Job& job) { controller.check_there(job, interrupt.token()); };
     }
-    return run_series(options.series, steps, interrupt.token());
+    return run_job_series(options.series, steps, interrupt.token());
 }
 
 int send_motion(const SendOptions& options) {
     const Interrupt interrupt(Suspending::refused);
     const auto model = model_of(options);
     PlannedMachine machine(options.machine);
-    SeriesSteps steps;
+    JobSeriesSteps steps;
     steps.make = [&](const std::string& file, int from_line) {
         if (options.machine.driver == "cordic" && plot::is_path_file(read_file(file))) {
             throw Error(
@@ -197,7 +197,7 @@ int send_motion(const SendOptions& options) {
     };
     steps.ready = [] {};
     steps.run = [&](const jobs::Job& job) { return machine.run(job, options.series.log, interrupt); };
-    return run_series(options.series, steps, interrupt.token());
+    return run_job_series(options.series, steps, interrupt.token());
 }
 
 int send(SendOptions options) {
@@ -215,7 +215,7 @@ int send(SendOptions options) {
 void add_send_command(CLI::App& app, Command& chosen) {
     const auto options = std::make_shared<SendOptions>();
     CLI::App& command = *app.add_subcommand("send", "Send files to a machine");
-    add_series_options(
+    add_job_series_options(
         command, options->series, "G-code files; with --machine also path files; for a PMAC motion programs");
     command.add_option("--driver", options->machine.driver, "Controller type, or machine to run on")
         ->required()

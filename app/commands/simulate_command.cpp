@@ -3,7 +3,7 @@
 #include "app/finite_number.h"
 #include "app/interrupt.h"
 #include "app/origin_choice.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/progress_printer.h"
 #include "app/simulated_collisions.h"
 #include "app/simulated_work.h"

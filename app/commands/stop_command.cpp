@@ -1,7 +1,7 @@
 #include "app/commands/stop_command.h"
 
 #include "app/interrupt.h"
-#include "app/series.h"
+#include "app/job_series.h"
 #include "core/base/error.h"
 #include "core/drivers/driver.h"
 #include "core/drivers/grbl/grbl_driver.h"
@@ -22,7 +22,7 @@ namespace {
 
 struct StopOptions {
     machine::DriverChoice machine;
-    std::string log = SeriesChoice().log;
+    std::string log = JobSeriesChoice().log;
     bool emergency = false;
 };
 

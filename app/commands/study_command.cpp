@@ -4,7 +4,7 @@
 #include "app/commands/study_run_time.h"
 #include "app/commands/study_set_up.h"
 #include "app/interrupt.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/progress_printer.h"
 #include "app/spread_study.h"
 #include "app/study_pictures.h"

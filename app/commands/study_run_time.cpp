@@ -1,7 +1,7 @@
 #include "app/commands/study_run_time.h"
 
 #include "app/interrupt.h"
-#include "app/outputs.h"
+#include "app/output_transaction.h"
 #include "app/progress_printer.h"
 #include "app/usage_error.h"
 #include "core/base/counted.h"

@@ -1,8 +1,8 @@
 #include "app/commands/study_set_up.h"
 
 #include "app/interrupt.h"
-#include "app/names.h"
-#include "app/outputs.h"
+#include "app/option_choices.h"
+#include "app/output_transaction.h"
 #include "app/progress_printer.h"
 #include "app/ranks.h"
 #include "app/spread_set_up.h"
@@ -70,11 +70,11 @@ void print_set_up(std::string_view name, const toolpath::SetUp& at) {
 
 /// Where the part stands, and in the map, whose best place is in reach.
 void print_out_of_reach(const SetUpStudy& study,
-                        const plan::Workpiece& workpiece,
+                        const plan::CuttingSetup& cutting_setup,
                         const plan::SetUpStudySettings& settings) {
     if (!std::isfinite(study.search.start.cost)) {
         fmt::print("the start is out of reach: {}\n",
-                   plan::why_out_of_reach(workpiece, settings, study.search.start.place).value_or(""));
+                   plan::why_out_of_reach(cutting_setup, settings, study.search.start.place).value_or(""));
     }
     const auto holes =
         std::ranges::count_if(study.map.costs, [](double cost) { return !std::isfinite(cost); });
@@ -85,13 +85,13 @@ void print_out_of_reach(const SetUpStudy& study,
 
 /// At rank 0 of one or several.
 SetUpStudy found_on(const Ranks& ranks,
-                    const plan::Workpiece& workpiece,
+                    const plan::CuttingSetup& cutting_setup,
                     const plan::SetUpStudySettings& settings,
                     const std::string& folder,
                     const Interrupt& interrupt) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
-    const toolpath::SetUpCost cost = plan::set_up_cost(workpiece, settings);
+    const toolpath::SetUpCost cost = plan::set_up_cost(cutting_setup, settings);
     SpreadCosts spread(ranks, cost, [&](const std::string& line) { printer.say(line); });
     const OutputFolder until_written(folder);
     toolpath::SetUpCosts measure;
@@ -100,7 +100,7 @@ SetUpStudy found_on(const Ranks& ranks,
             return spread.at(places, part);
         };
     }
-    SetUpStudy study = plan::set_up_study(workpiece, settings, progress, measure);
+    SetUpStudy study = plan::set_up_study(cutting_setup, settings, progress, measure);
     printer.finish();
     return study;
 }
@@ -113,16 +113,16 @@ int set_up(const StudySetUpOptions& options) {
     }
     plan::SetUpStudySettings settings = options.settings;
     settings.turn_reach = from_degrees(options.turn_reach_deg);
-    const plan::Workpiece workpiece = plan::workpiece_of(opened.project, opened.folders);
+    const plan::CuttingSetup cutting_setup = plan::cutting_setup_of(opened.project, opened.folders);
     const Ranks ranks;
     if (ranks.rank() > 0) {
         const auto deserted = [&](const std::string& lost) {
             fmt::print(stderr, "{}{}\n", lost, ranks.rank() == 1 ? "; nothing is written" : "");
         };
-        help_with_costs(ranks, plan::set_up_cost(workpiece, settings), deserted, interrupt.token());
+        help_with_costs(ranks, plan::set_up_cost(cutting_setup, settings), deserted, interrupt.token());
         return 0;
     }
-    const SetUpStudy study = found_on(ranks, workpiece, settings, options.out, interrupt);
+    const SetUpStudy study = found_on(ranks, cutting_setup, settings, options.out, interrupt);
     ranks.let_go(); // nothing that is left to do can be lost with a rank
     write_outputs(options.out,
                   {{{"set-up.csv", plan::set_up_csv(study.map)},
@@ -146,9 +146,9 @@ int set_up(const StudySetUpOptions& options) {
     if (!gains) {
         fmt::print("no gain: no position better than the start was found\n");
     }
-    print_out_of_reach(study, workpiece, settings);
+    print_out_of_reach(study, cutting_setup, settings);
     const std::string edge = plan::edge_sentence(study.search,
-                                                 plan::set_up_box(workpiece, settings),
+                                                 plan::set_up_box(cutting_setup, settings),
                                                  {"--reach", "--reach", "--height-reach", "--turn-reach"});
     if (!edge.empty()) {
         fmt::print("{}\n", edge);
@@ -174,15 +174,15 @@ void add_study_set_up_command(CLI::App& group, Command& chosen) {
         ->type_name("DIR");
     command.add_option("--goal", settings.goal, "Goal to minimise: error or travel")
         ->transform(one_of(goals))
-        ->type_name(listed(goals))
+        ->type_name(choice_list(goals))
         ->default_str("error");
     command.add_option("--across", settings.across, "Columns of the map: a, b, c or turn")
         ->transform(one_of(parameters))
-        ->type_name(listed(parameters))
+        ->type_name(choice_list(parameters))
         ->default_str("a");
     command.add_option("--up", settings.up, "Rows of the map: a, b, c or turn")
         ->transform(one_of(parameters))
-        ->type_name(listed(parameters))
+        ->type_name(choice_list(parameters))
         ->default_str("b");
     command.add_option("--places", settings.places, "Samples of the map per direction")
         ->check(CLI::Range(2, 500));

@@ -2,13 +2,13 @@
 
 #include "app/commands/thesis_form.h"
 #include "app/commands/thesis_grid.h"
-#include "app/names.h"
-#include "app/outputs.h"
+#include "app/option_choices.h"
+#include "app/output_transaction.h"
 #include "app/usage_error.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/kinematics/rotary_tilt_machine.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "core/toolpath/thesis_files.h"
 
@@ -54,7 +54,7 @@ std::vector<Vec3> mid_points(const PictureOptions& options,
     if (options.constants) {
         return toolpath::listing_mid_points(patch, *options.constants, grid, faults);
     }
-    const kinematics::MachineModel machine = plan::workpiece_of(opened.project, opened.folders).machine;
+    const kinematics::MachineModel machine = plan::cutting_setup_of(opened.project, opened.folders).machine;
     if (const auto constants = kinematics::rotary_tilt_of(machine)) {
         return toolpath::listing_mid_points(patch, *constants, grid, faults);
     }
@@ -129,7 +129,7 @@ void add_files(CLI::App& thesis, Command& chosen) {
             [options, directions](const std::string& name) { options->direction = directions.at(name); },
             "Tracks along u (Tool Path 1) or along v (Tool Path 2); default: the project's")
         ->check(CLI::IsMember(directions).description(""))
-        ->type_name(listed(directions));
+        ->type_name(choice_list(directions));
     const std::map<std::string, std::optional<kinematics::RotaryTilt>> constants{
         {"project", std::nullopt},
         {"listing", kinematics::listing_values},
@@ -141,7 +141,7 @@ void add_files(CLI::App& thesis, Command& chosen) {
             [options, constants](const std::string& name) { options->constants = constants.at(name); },
             "Machine and position of the part: the project's (default), or one of the thesis's three sets")
         ->check(CLI::IsMember(constants).description(""))
-        ->type_name(listed(constants));
+        ->type_name(choice_list(constants));
     command.add_flag("--listing-faults",
                      options->with_faults,
                      "Reproduce the listing's wrong parenthesis and integer absolute value");
@@ -156,7 +156,7 @@ void add_convert(CLI::App& thesis, Command& chosen) {
     command.add_option("--out", options->out, "Output file")->required()->type_name("FILE");
     command.add_option("--to", options->to, "One node per line, or blocks")
         ->transform(one_of(grid_forms))
-        ->type_name(listed(grid_forms))
+        ->type_name(choice_list(grid_forms))
         ->default_str("blocks");
     CLI::Option& size =
         *command.add_option("--size", options->size, "FILE has pairs, with this number of rows and columns")

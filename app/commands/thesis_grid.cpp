@@ -2,7 +2,7 @@
 
 #include "app/commands/thesis_form.h"
 #include "app/interrupt.h"
-#include "app/names.h"
+#include "app/option_choices.h"
 #include "app/progress_printer.h"
 #include "app/usage_error.h"
 #include "core/base/counted.h"
@@ -13,7 +13,7 @@
 #include "core/grid/error_weight.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -107,14 +107,14 @@ std::string mean_text(const grid::ErrorSummary& error) {
 }
 
 /// Which grid the method takes for its best, beside the one that is written.
-std::string kept_text(const grid::ImproverState& state, const grid::Grid& start) {
+std::string kept_text(const grid::OptimiserState& state, const grid::Grid& start) {
     return state.best.array() == state.reached ? "this grid"
            : state.best == start               ? "the start grid"
                                                : "another grid";
 }
 
 /// `start` and `written` are measured alike, whatever the method has measured on its way.
-void print_ending(const grid::ImproverState& state,
+void print_ending(const grid::OptimiserState& state,
                   const project::GridInput& input,
                   GridMethod method,
                   const grid::Grid& start,
@@ -158,11 +158,11 @@ void expect_files_of(const GridOptions& options, GridMethod method) {
     }
 }
 
-grid::ImproverState adapted(grid::GridImprover& improver, GridMethod method, const std::stop_token& stop) {
+grid::OptimiserState adapted(grid::GridOptimiser& optimiser, GridMethod method, const std::stop_token& stop) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
     progress.report(0.0, std::string(plan::title_of_making(method)));
-    return grid::run(improver, progress);
+    return grid::run(optimiser, progress);
 }
 
 /// The grid that the method ends with, whether or not it improves the path.
@@ -177,11 +177,12 @@ int write_adapted_grid(const GridOptions& options, GridMethod method) {
         write_nodes(options, start ? start->array() : grid::Grid::uniform(input.nu, input.nv).array());
         return 0;
     }
-    const toolpath::KinematicError error = plan::workpiece_of(opened.project, opened.folders).error_model();
-    const auto improver = plan::make_improver(method, input, error, plan::Effort::full, start);
-    const grid::ImproverState state = adapted(*improver, method, interrupt.token());
+    const toolpath::KinematicError error =
+        plan::cutting_setup_of(opened.project, opened.folders).error_model();
+    const auto optimiser = plan::make_optimiser(method, input, error, plan::Effort::full, start);
+    const grid::OptimiserState state = adapted(*optimiser, method, interrupt.token());
     if (!options.residuals.empty()) {
-        const std::optional<grid::NodeArray> residuals = improver->residuals();
+        const std::optional<grid::NodeArray> residuals = optimiser->residuals();
         if (!residuals) {
             throw Error(
                 "there are no residuals: nothing was iterated, or the grid has fewer than 3 x 3 nodes",
@@ -212,11 +213,11 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
     command.add_option("--out", options->out, "Output file")->required()->type_name("FILE");
     command.add_option("--form", options->form, "One node per line, or blocks of u and of v")
         ->transform(one_of(grid_forms))
-        ->type_name(listed(grid_forms))
+        ->type_name(choice_list(grid_forms))
         ->default_str("blocks");
     command.add_option("--units", options->units, "u and v from 0 to 1, or from 0 to n - 1 as in the thesis")
         ->transform(one_of(grid_units))
-        ->type_name(listed(grid_units))
+        ->type_name(choice_list(grid_units))
         ->default_str("parameters");
     std::map<std::string, GridMethod> methods;
     for (const auto& row : project::grid_methods()) {
@@ -229,7 +230,7 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
                  [options, methods](const std::string& name) { options->method = methods.at(name); },
                  "Write the final grid of this method, even if it does not improve the path")
              ->check(CLI::IsMember(methods).description(""))
-             ->type_name(listed(methods));
+             ->type_name(choice_list(methods));
     CLI::Option& start =
         *command.add_option("--start", options->start, "Start grid, such as the thesis's file source")
              ->type_name("FILE")
@@ -240,7 +241,7 @@ void add_thesis_grid(CLI::App& thesis, Command& chosen) {
             [options](const std::string& name) { options->start_form = grid_forms.at(name); },
             "Form of that file (default: the form that has the nodes of the project)")
         ->check(CLI::IsMember(grid_forms).description(""))
-        ->type_name(listed(grid_forms))
+        ->type_name(choice_list(grid_forms))
         ->needs(&start);
     command
         .add_option("--residuals", options->residuals, "Write R_X and R_Y of the last grid, as in orx.dat")

@@ -13,7 +13,7 @@ namespace millwright::arm {
 /// The frame of every joint in the base's frame, from the base outwards.
 [[nodiscard]] std::vector<Frame> base_T_joints(const ArmModel& arm, const JointPositions& positions);
 
-/// Columns: one a joint. Rows 0-2: velocity of the tip; rows 3-5: angular velocity of the tool; both in the
+/// Columns: one per joint. Rows 0-2: velocity of the tip; rows 3-5: angular velocity of the tool; both in the
 /// base's frame, a unit of joint velocity (Craig, ch. 5).
 using ArmJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 9>;
 [[nodiscard]] ArmJacobian arm_jacobian(const ArmModel& arm, const JointPositions& positions);

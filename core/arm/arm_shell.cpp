@@ -10,7 +10,7 @@ namespace millwright::arm {
 
 namespace {
 
-constexpr int steps_a_turn = 180;
+constexpr int steps_per_turn = 180;
 constexpr double curve_offset = 0.05; // mm off a curve, where one side is reached and the other is not
 
 /// Of joints 2 and 3; positive angles lower the arm.
@@ -29,7 +29,7 @@ bool within_limits(const ArmJoint& joint, double angle) {
 using Curve = std::vector<Vec2>;
 
 Curve swept(double from, double to, const auto& place) {
-    const int steps = std::max(2, static_cast<int>(std::ceil((to - from) / (2.0 * pi) * steps_a_turn)));
+    const int steps = std::max(2, static_cast<int>(std::ceil((to - from) / (2.0 * pi) * steps_per_turn)));
     Curve curve;
     for (int n = 0; n <= steps; ++n) {
         curve.push_back(place(from + (to - from) * n / steps));

@@ -46,7 +46,7 @@ struct JsonValue::Node {
     double number = 0.0;
     bool flag = false;
     std::string text;
-    std::vector<std::string> keys; ///< of an object, one a child
+    std::vector<std::string> keys; ///< of an object, one per child
     std::vector<std::shared_ptr<Node>> children;
 };
 

@@ -3,8 +3,8 @@
 // next.
 #pragma once
 
+#include "core/cordic/int128.h"
 #include "core/cordic/sequence.h"
-#include "core/cordic/wide.h"
 
 #include <array>
 #include <cstdint>

@@ -5,9 +5,9 @@
 #pragma once
 
 #include "core/cordic/angles.h"
+#include "core/cordic/int128.h"
 #include "core/cordic/number_format.h"
 #include "core/cordic/sequence.h"
-#include "core/cordic/wide.h"
 
 #include <array>
 #include <bit>

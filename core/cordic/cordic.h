@@ -9,8 +9,8 @@
 // bits on every machine, compiler and optimisation level. Angles rad, shifts as powers of two.
 #pragma once
 
-#include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
 #include "core/cordic/kernel.h"
 #include "core/cordic/number_format.h"
+#include "core/cordic/quadrant_fold.h"
 #include "core/cordic/sequence.h"

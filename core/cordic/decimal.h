@@ -2,8 +2,8 @@
 // bits can hold.
 #pragma once
 
+#include "core/cordic/int128.h"
 #include "core/cordic/number_format.h"
-#include "core/cordic/wide.h"
 
 #include <cstdint>
 #include <string>

@@ -3,8 +3,8 @@
 // chapter 5.
 #pragma once
 
-#include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
+#include "core/cordic/quadrant_fold.h"
 
 namespace millwright::cordic {
 

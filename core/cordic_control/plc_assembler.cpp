@@ -152,7 +152,7 @@ private:
 
     /// Behind a comma: ms of a timer, or a count.
     bool read_preset(PlcInstruction& made) {
-        constexpr double us_a_ms = 1000.0;
+        constexpr double us_per_ms = 1000.0;
         constexpr double most = 1e9;
         const bool timer = is_timer(made.op);
         const bool there = at_ + 1 < words_.size() && words_[at_].text == ",";
@@ -166,7 +166,7 @@ private:
                  timer ? "a comma and a time in ms are expected" : "a comma and a count are expected");
             return false;
         }
-        made.preset = std::llround(timer ? us_a_ms * value : value);
+        made.preset = std::llround(timer ? us_per_ms * value : value);
         ++at_;
         return true;
     }

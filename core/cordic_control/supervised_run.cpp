@@ -11,7 +11,7 @@
 namespace millwright::cordic {
 namespace {
 
-constexpr double seconds_a_microsecond = 1e-6;
+constexpr double seconds_per_microsecond = 1e-6;
 
 /// What a record asks the motion controller to do.
 enum class Task : std::uint8_t { move, dwell, wait_for_start, wait_for_fin, spindle, coolant };
@@ -106,7 +106,7 @@ private:
         switch (command.opcode) {
         case Opcode::g04:
             record.task = Task::dwell;
-            record.seconds = command.parameter * seconds_a_microsecond;
+            record.seconds = command.parameter * seconds_per_microsecond;
             break;
         case Opcode::m00:
         case Opcode::m01:
@@ -201,7 +201,7 @@ private:
         for (PlcBit bit = 0; bit < plc_bit_count; ++bit) {
             before[static_cast<std::size_t>(bit)] = plc_.get(bit);
         }
-        plc_.scan(std::llround(now_ / seconds_a_microsecond));
+        plc_.scan(std::llround(now_ / seconds_per_microsecond));
         ++run_.scans;
         for (PlcBit bit = 0; bit < plc_bit_count; ++bit) {
             const bool shown = plc_writes(bit) && plc_name(bit)[0] != 'M';

@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/cordic_machine/cordic_motion.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "core/gcode/interpreter.h"
 #include "core/motion/plan_within.h"
 

@@ -20,17 +20,17 @@ using cordic::Opcode;
 using kinematics::AxisPositions;
 using kinematics::MachineModel;
 
-constexpr double seconds_a_microsecond = 1e-6;
+constexpr double seconds_per_microsecond = 1e-6;
 constexpr int linear_axes = 3;
 
-class Controller {
+class SetPointMotion {
 public:
-    Controller(const cordic::Processor& processor,
-               const CordicProgram& made,
-               const MachineModel& machine,
-               const AxisPositions& start,
-               const std::filesystem::path& file,
-               double most_acceleration)
+    SetPointMotion(const cordic::Processor& processor,
+                   const CordicProgram& made,
+                   const MachineModel& machine,
+                   const AxisPositions& start,
+                   const std::filesystem::path& file,
+                   double most_acceleration)
         : processor_(processor), made_(made), file_(file), most_acceleration_(most_acceleration) {
         program_.machine = machine.name();
         for (const kinematics::MachineAxis& axis : machine.axes()) {
@@ -137,7 +137,7 @@ private:
         const double parameter = command.parameter;
         switch (command.opcode) {
         case Opcode::g04:
-            add(program::BlockKind::dwell, line).duration = parameter * seconds_a_microsecond;
+            add(program::BlockKind::dwell, line).duration = parameter * seconds_per_microsecond;
             return;
         case Opcode::m00:
             pause(program::PauseKind::program_stop, "program stop", line);
@@ -210,7 +210,7 @@ CordicMotion cordic_motion(const cordic::Processor& processor,
                            const AxisPositions& start,
                            const std::filesystem::path& file,
                            double most_acceleration) {
-    return Controller(processor, made, machine, start, file, most_acceleration).motion();
+    return SetPointMotion(processor, made, machine, start, file, most_acceleration).motion();
 }
 
 } // namespace millwright::cordic_machine

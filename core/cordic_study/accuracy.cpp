@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
+#include "core/cordic/quadrant_fold.h"
 
 #include <algorithm>
 #include <cmath>

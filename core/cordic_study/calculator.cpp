@@ -4,8 +4,8 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/cordic/angles.h"
-#include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
+#include "core/cordic/quadrant_fold.h"
 #include "core/cordic_study/internal/entered_numbers.h"
 
 #include <fmt/format.h>

@@ -161,7 +161,8 @@ double e5_relative() {
     double worst = 0.0;
     for (int n = 0; n < directions; ++n) {
         const PlanePoint to = on_circle(-180.0 + 360.0 * n / (directions - 1));
-        const auto set = line_set_point(kernel, to.x, to.y, 0.0, 0.0, e5_speed, e5_acceleration, overflow);
+        const auto set =
+            line_set_point(thesis_kernel, to.x, to.y, 0.0, 0.0, e5_speed, e5_acceleration, overflow);
         const double length = std::hypot(to.x, to.y);
         const std::array<std::pair<double, double>, 2> axes{
             {{set.vx, to.x / length}, {set.vy, to.y / length}}};
@@ -189,7 +190,8 @@ void all_directions(Experiments& all) {
     double worst_acceleration = 0.0;
     for (const double deg : steps(-180.0, 180.0, 0.1)) {
         const PlanePoint to = on_circle(deg);
-        const auto set = line_set_point(kernel, to.x, to.y, 0.0, 0.0, e5_speed, e5_acceleration, overflow);
+        const auto set =
+            line_set_point(thesis_kernel, to.x, to.y, 0.0, 0.0, e5_speed, e5_acceleration, overflow);
         const double length = std::hypot(to.x, to.y);
         const std::array<double, 4> found = {set.vx, set.vy, set.ax, set.ay};
         for (std::size_t n = 0; n < found.size(); ++n) {
@@ -227,8 +229,8 @@ std::vector<PlanePoint> points_of(const Arc& arc) {
     std::vector<PlanePoint> points;
     PlanePoint at = arc.start;
     for (int n = 0; n < arc.chords; ++n) {
-        const auto next =
-            arc_point(kernel, arc.centre.x, arc.centre.y, at.x, at.y, arc.sweep / arc.chords, overflow);
+        const auto next = arc_point(
+            thesis_kernel, arc.centre.x, arc.centre.y, at.x, at.y, arc.sweep / arc.chords, overflow);
         at = {next.x, next.y};
         points.push_back(at);
     }

@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/cordic/fold.h"
+#include "core/cordic/quadrant_fold.h"
 #include "core/cordic_study/internal/entered_numbers.h"
 
 #include <fmt/format.h>

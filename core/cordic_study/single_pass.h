@@ -33,7 +33,7 @@ struct SinglePass {
     double exact_x = 0.0, exact_y = 0.0, exact_z = 0.0;
     double error = 0.0;   ///< rotation: distance of (x, y) from the exact vector; vectoring: of x
     double z_error = 0.0; ///< vectoring: of z; rotation: what is left of it
-    bool f1 = false;      ///< what Pre did; see fold.h
+    bool f1 = false;      ///< what Pre did; see quadrant_fold.h
     bool f2 = false;
     int quarter_turns = 0; ///< vectoring with folding: the direction is z and so many times pi/2
     int clocks = 0;

@@ -14,7 +14,7 @@
 namespace millwright::drivers {
 
 namespace internal {
-class Ahead;
+class SendWindow;
 }
 
 class ControllerSession {
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] virtual std::optional<Diagnostic> stranger() const = 0;
 
     /// What it wants to know before it sends more of a program; null: it is given programs whole.
-    [[nodiscard]] virtual internal::Ahead* ahead() { return nullptr; }
+    [[nodiscard]] virtual internal::SendWindow* send_window() { return nullptr; }
 
     // What a person wants, as in Driver. Each throws Error with the reason if it cannot be done now; those of
     // Driver that do nothing in other states do nothing.

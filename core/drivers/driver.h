@@ -40,7 +40,7 @@ struct Capabilities {
     std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
     bool tells_spindle = true;      ///< whether it turns
     bool told_place = false;        ///< does not tell where it stands: a person does, stands_at()
-    bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (hand_lines.h)
+    bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (mdi_lines.h)
     bool check_mode = false;        ///< reads a program without moving: check_there()
     bool probe = false;             ///< G38.2 as a command
     bool settings = false;          ///< has a table of its own that can be changed

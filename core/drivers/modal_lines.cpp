@@ -1,6 +1,6 @@
 #include "core/drivers/modal_lines.h"
 
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "core/program/number_format.h"
 
 #include <fmt/format.h>

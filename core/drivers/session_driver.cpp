@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/drivers/console_tap.h"
 #include "core/drivers/controller_session.h"
-#include "core/drivers/internal/ahead.h"
+#include "core/drivers/internal/send_window.h"
 #include "core/links/link.h"
 
 #include <chrono>
@@ -66,18 +66,18 @@ struct SessionDriver::Body {
 
     /// Whether there may be more to ask.
     bool ask_ahead() {
-        std::optional<internal::Ahead::Question> question;
+        std::optional<internal::SendWindow::Question> question;
         {
             const std::scoped_lock lock(mutex);
-            const internal::Ahead* const ahead = session->ahead();
-            question = ahead != nullptr ? ahead->question() : std::nullopt;
+            const internal::SendWindow* const window = session->send_window();
+            question = window != nullptr ? window->question() : std::nullopt;
         }
         if (!question) {
             return false;
         }
         const int allowed = question->ask(question->wanted); // may wait for a disk
         const std::scoped_lock lock(mutex);
-        session->ahead()->answer(*question, allowed);
+        session->send_window()->answer(*question, allowed);
         session->tick(clock.now());
         send();
         return allowed >= question->wanted;

@@ -9,8 +9,8 @@
 #include "core/exchange/internal/cad_text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/occt.h"
+#include "core/exchange/internal/progress_stream.h"
 #include "core/exchange/internal/step_units.h"
-#include "core/exchange/internal/told_text.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -132,7 +132,7 @@ load(STEPControl_Reader& reader, const std::filesystem::path& file, const Progre
     expect_not_too_many(faces, file);
     const std::string of = faces == 1 ? "1 face" : fmt::format("{} faces", faces);
     progress.report(text_looked_through, "reading the text of " + of);
-    ToldText told(text, progress.part(text_looked_through, text_read), "reading the entities of " + of);
+    ProgressStream told(text, progress.part(text_looked_through, text_read), "reading the entities of " + of);
     std::istream stream(&told);
     if (reader.ReadStream(file.c_str(), stream) != IFSelect_RetDone) {
         refuse_damaged(text, file);

@@ -4,7 +4,7 @@
 #include "core/exchange/internal/fit_deviation.h"
 #include "core/exchange/internal/fit_rounds.h"
 #include "core/exchange/internal/least_squares.h"
-#include "core/exchange/internal/seen_side.h"
+#include "core/exchange/internal/visible_side.h"
 
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "core/base/text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/mesh_readers.h"
-#include "core/exchange/internal/soup.h"
+#include "core/exchange/internal/polygon_soup.h"
 
 #include <algorithm>
 #include <array>
@@ -90,7 +90,7 @@ MeshFile parse_mesh(std::string_view bytes,
         throw Error("the file is empty", file);
     }
     progress.report(0.0, "reading the mesh");
-    Soup soup(file, mm_per_unit);
+    PolygonSoup soup(file, mm_per_unit);
     const std::string kind = kind_of(file);
     if (kind == "stl") {
         read_stl(bytes, file, soup, progress);

@@ -5,10 +5,10 @@
 #include "core/exchange/internal/fit_deviation.h"
 #include "core/exchange/internal/fit_rounds.h"
 #include "core/exchange/internal/fit_target.h"
+#include "core/exchange/internal/harmonic_parametrization.h"
 #include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/mesh_outlines.h"
-#include "core/exchange/internal/seen_side.h"
-#include "core/exchange/internal/square_map.h"
+#include "core/exchange/internal/visible_side.h"
 #include "core/geometry/closest_point.h"
 
 #include <fmt/format.h>
@@ -34,14 +34,14 @@ void check(const FitSettings& settings) {
 }
 
 /// Points on the triangles and on the outline, where the square has them.
-std::vector<Sample> samples_on(const SquareMap& map, const FitTarget& target, int count) {
-    constexpr int points_an_edge_on_average = 4;
+std::vector<Sample> samples_on(const HarmonicParametrization& map, const FitTarget& target, int count) {
+    constexpr int points_per_edge_on_average = 4;
     std::vector<Sample> samples;
     for (const Spread& spread : spread_over(target.side.mesh, target.side.area, count)) {
         samples.push_back({target.at(spread), spread.of(map.places), std::nullopt});
     }
     const int each =
-        std::clamp<int>(count / (points_an_edge_on_average * static_cast<int>(map.outline.size())), 1, 20);
+        std::clamp<int>(count / (points_per_edge_on_average * static_cast<int>(map.outline.size())), 1, 20);
     for (const OutlineEdge& edge : map.outline) {
         for (int k = 0; k < each; ++k) {
             const double share = (k + 0.5) / each;
@@ -160,11 +160,11 @@ geometry::Trim trim_on(const BezierPatch& patch, const CadFace& face, const Prog
 
 /// `seen_from`: the unit direction from which the target is seen; nullopt for a whole face.
 MeshFit fitted(FitTarget target,
-               const std::optional<SquareMap>& square,
+               const std::optional<HarmonicParametrization>& square,
                const FitSettings& settings,
                const std::optional<Vec3>& seen_from,
                const Progress& progress) {
-    const SeenSide& side = target.side;
+    const VisibleSide& side = target.side;
     std::vector<Sample> samples;
     if (square) {
         samples = samples_on(*square, target, settings.points);
@@ -208,7 +208,7 @@ MeshFit fitted_side(FitTarget target,
                     const Progress& progress) {
     settings.along = settings.along.value_or(mean_direction(mesh));
     const Vec3& along = *settings.along;
-    target.side = seen_side(mesh, along);
+    target.side = visible_side(mesh, along);
     if (target.side.mesh.triangles.empty()) {
         throw Error(fmt::format(
             "no triangle of the mesh faces ({:.3g}, {:.3g}, {:.3g})", along.x(), along.y(), along.z()));
@@ -222,7 +222,7 @@ MeshFit fitted_side(FitTarget target,
         target.outlines = outlines_of(target.side.mesh, along);
     }
     const auto rectangle = least_rectangle(target.side.mesh.points, along);
-    const auto square = rectangle ? square_map(target.side.mesh, *rectangle) : std::nullopt;
+    const auto square = rectangle ? harmonic_parametrization(target.side.mesh, *rectangle) : std::nullopt;
     return fitted(std::move(target), square, settings, settings.along, progress);
 }
 
@@ -278,7 +278,7 @@ MeshFit fit_face(const CadFace& face, FitSettings settings, const Progress& prog
         return fitted_side(std::move(target), made.mesh, made.places, settings, progress);
     }
     settings.along = mean_direction(made.mesh);
-    SquareMap own{{}, std::move(made.outline)};
+    HarmonicParametrization own{{}, std::move(made.outline)};
     for (const Vec2& place : made.places) {
         own.places.push_back(place.cwiseQuotient(Vec2(face.rows, face.columns)));
     }

@@ -2,11 +2,11 @@
 
 #include "core/base/numbers.h"
 #include "core/base/text.h"
+#include "core/gcode/internal/compensation_lookahead.h"
 #include "core/gcode/internal/control_flow.h"
 #include "core/gcode/internal/execute.h"
 #include "core/gcode/internal/expression.h"
 #include "core/gcode/internal/grbl_words.h"
-#include "core/gcode/internal/held_moves.h"
 #include "core/gcode/internal/machine_codes.h"
 #include "core/gcode/internal/number.h"
 #include "core/gcode/internal/o_line.h"

@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "core/gcode/canon.h"
 #include "core/gcode/modal_state.h"
-#include "core/gcode/settings.h"
+#include "core/gcode/reader_settings.h"
 
 #include <cstdint>
 #include <filesystem>

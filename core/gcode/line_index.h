@@ -29,7 +29,7 @@ public:
 private:
     std::string_view text_;
     std::ptrdiff_t count_ = 0;
-    std::vector<std::size_t> marks_; ///< where each lines_a_mark-th line begins
+    std::vector<std::size_t> marks_; ///< where each lines_per_mark-th line begins
 };
 
 } // namespace millwright::gcode

@@ -15,8 +15,8 @@ namespace millwright::gcode {
 
 namespace {
 
-constexpr double usual_rapid = 100.0;    // mm/s: where no machine is known
-constexpr double turn_a_piece_deg = 3.0; // of rotary axes, whose ways are bent on the part
+constexpr double usual_rapid = 100.0;      // mm/s: where no machine is known
+constexpr double turn_per_piece_deg = 3.0; // of rotary axes, whose ways are bent on the part
 
 } // namespace
 
@@ -28,7 +28,7 @@ public:
         if (settings_.machine) {
             prepare(*settings_.machine);
         }
-        chunker_.add(PathPoint(tip(at_), 0, PathKind::start), 0.0);
+        chunker_.add(PreviewPoint(tip(at_), 0, PathKind::start), 0.0);
         last_ = tip(at_);
     }
 
@@ -137,7 +137,7 @@ private:
         }
         const AxisValues start = at_;
         const int pieces =
-            std::clamp(static_cast<int>(std::ceil(turn_between(start, end) / turn_a_piece_deg)), 1, 360);
+            std::clamp(static_cast<int>(std::ceil(turn_between(start, end) / turn_per_piece_deg)), 1, 360);
         for (int n = 1; n <= pieces; ++n) {
             const double t = static_cast<double>(n) / pieces;
             AxisValues between;
@@ -157,7 +157,7 @@ private:
         const double speed = kind == PathKind::rapid ? rapid_ : from_mm_per_min(feed_ * frame_.unit());
         const double seconds = speed > 0.0 ? way / speed : 0.0;
         seconds_ += seconds;
-        chunker_.add(PathPoint(here, step_, kind), seconds + std::exchange(waiting_, 0.0));
+        chunker_.add(PreviewPoint(here, step_, kind), seconds + std::exchange(waiting_, 0.0));
         if (auto full = chunker_.take_full()) {
             listener_(std::move(full));
         }

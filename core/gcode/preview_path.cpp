@@ -11,11 +11,11 @@ namespace millwright::gcode {
 
 namespace {
 
-constexpr std::uint32_t points_a_block = 1024;
-constexpr std::array<std::uint32_t, PathBlock::coarse_levels> points_a_level{129, 17, 2};
+constexpr std::uint32_t points_per_block = 1024;
+constexpr std::array<std::uint32_t, PathBlock::coarse_levels> points_per_level{129, 17, 2};
 
 /// Of a point to the straight line between two others, at its ends to these.
-float distance_from_chord(const PathPoint& p, const PathPoint& a, const PathPoint& b) {
+float distance_from_chord(const PreviewPoint& p, const PreviewPoint& a, const PreviewPoint& b) {
     std::array<float, 3> along{}, off{};
     float length = 0.0F, dot = 0.0F;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ struct Stretch {
     friend bool operator<(const Stretch& a, const Stretch& b) { return a.error < b.error; }
 };
 
-Stretch stretch_of(const PathPoint* points, std::uint32_t from, std::uint32_t to) {
+Stretch stretch_of(const PreviewPoint* points, std::uint32_t from, std::uint32_t to) {
     Stretch found{0.0F, from, from, to};
     for (std::uint32_t n = from + 1; n < to; ++n) {
         const float error = distance_from_chord(points[n], points[from], points[to]);
@@ -55,16 +55,16 @@ Stretch stretch_of(const PathPoint* points, std::uint32_t from, std::uint32_t to
 
 /// Douglas and Peucker's way: the point that is farthest off is taken next. Fills the levels from coarse to
 /// fine.
-void make_levels(const std::vector<PathPoint>& points,
+void make_levels(const std::vector<PreviewPoint>& points,
                  PathBlock& block,
                  std::vector<std::uint16_t>& indices) {
-    const PathPoint* own = points.data() + block.first;
+    const PreviewPoint* own = points.data() + block.first;
     const std::uint32_t last = block.count - 1;
     std::vector<std::uint32_t> kept{0, last};
     std::priority_queue<Stretch> open;
     open.push(stretch_of(own, 0, last));
     for (std::size_t level = PathBlock::coarse_levels; level-- > 0;) {
-        while (kept.size() < points_a_level[level] && open.top().error > 0.0F) {
+        while (kept.size() < points_per_level[level] && open.top().error > 0.0F) {
             const Stretch worst = open.top();
             open.pop();
             kept.push_back(worst.farthest);
@@ -99,7 +99,7 @@ Vec3 mixed(const Vec3& a, const Vec3& b, double t) {
     return (1.0 - t) * a + t * b;
 }
 
-template <class Boxed> void take_in(Boxed& box, const PathPoint& point) {
+template <class Boxed> void take_in(Boxed& box, const PreviewPoint& point) {
     for (std::size_t k = 0; k < 3; ++k) {
         box.min[k] = std::min(box.min[k], point.xyz()[k]);
         box.max[k] = std::max(box.max[k], point.xyz()[k]);
@@ -113,18 +113,18 @@ template <class Boxed> void make_empty(Boxed& box) {
 
 } // namespace
 
-PathPoint::PathPoint(const Vec3& position, Step step, PathKind kind)
+PreviewPoint::PreviewPoint(const Vec3& position, Step step, PathKind kind)
     : x_(static_cast<float>(position.x())), y_(static_cast<float>(position.y())),
       z_(static_cast<float>(position.z())), packed_(step | (static_cast<std::uint32_t>(kind) << step_bits)) {
     expects(step <= step_mask, "a path has less than 2^30 steps");
 }
 
 std::size_t PathChunk::bytes() const {
-    return sizeof(PathChunk) + points.capacity() * sizeof(PathPoint) + blocks.capacity() * sizeof(PathBlock) +
-           indices.capacity() * sizeof(std::uint16_t);
+    return sizeof(PathChunk) + points.capacity() * sizeof(PreviewPoint) +
+           blocks.capacity() * sizeof(PathBlock) + indices.capacity() * sizeof(std::uint16_t);
 }
 
-void PathChunker::add(const PathPoint& point, double seconds) {
+void PathChunker::add(const PreviewPoint& point, double seconds) {
     if (points_.capacity() == 0) {
         points_.reserve(PathChunk::most_points);
         seconds_.reserve(PathChunk::most_points);
@@ -149,10 +149,10 @@ std::shared_ptr<const PathChunk> PathChunker::take() {
     make_empty(*chunk);
     const auto count = static_cast<std::uint32_t>(points_.size());
     double time = start_time_;
-    for (std::uint32_t first = 0; first + 1 < count; first += points_a_block - 1) {
+    for (std::uint32_t first = 0; first + 1 < count; first += points_per_block - 1) {
         PathBlock block;
         block.first = first;
-        block.count = std::min(points_a_block, count - first);
+        block.count = std::min(points_per_block, count - first);
         make_empty(block);
         for (std::uint32_t n = first; n < first + block.count; ++n) {
             take_in(block, points_[n]);
@@ -195,7 +195,7 @@ const PathChunk& PreviewPath::chunk_of(std::int64_t n) const {
     return **(after - 1);
 }
 
-const PathPoint& PreviewPath::point(std::int64_t n) const {
+const PreviewPoint& PreviewPath::point(std::int64_t n) const {
     const PathChunk& chunk = chunk_of(n);
     return chunk.points[static_cast<std::size_t>(n - chunk.first)];
 }
@@ -235,7 +235,7 @@ double PreviewPath::time_of(const PathPlace& place) const {
     const PathChunk& chunk = chunk_of(std::max<std::int64_t>(place.point - 1, 0));
     const auto n = static_cast<std::uint32_t>(place.point - chunk.first);
     const std::size_t b =
-        std::min<std::size_t>(n > 0 ? (n - 1) / (points_a_block - 1) : 0, chunk.blocks.size() - 1);
+        std::min<std::size_t>(n > 0 ? (n - 1) / (points_per_block - 1) : 0, chunk.blocks.size() - 1);
     const PathBlock& block = chunk.blocks[b];
     const double end = b + 1 < chunk.blocks.size() ? chunk.blocks[b + 1].start_time : chunk.end_time;
     const double whole = length_until(chunk, block, block.first + block.count - 1);
@@ -254,7 +254,7 @@ std::int64_t PreviewPath::first_point_from(Step step) const {
     }
     const auto& points = (*chunk)->points;
     const auto point = std::partition_point(
-        points.begin(), points.end(), [&](const PathPoint& p) { return p.step() < step; });
+        points.begin(), points.end(), [&](const PreviewPoint& p) { return p.step() < step; });
     return (*chunk)->first + (point - points.begin());
 }
 

@@ -23,11 +23,11 @@ enum class PathKind : std::uint8_t {
 };
 
 /// Where a straight piece of the way ends, and the step that asks for it.
-class PathPoint {
+class PreviewPoint {
 public:
-    PathPoint() = default;
+    PreviewPoint() = default;
     /// Throws Defect if `step` is too large to be kept (2^30).
-    PathPoint(const Vec3& position, Step step, PathKind kind);
+    PreviewPoint(const Vec3& position, Step step, PathKind kind);
 
     [[nodiscard]] Vec3 position() const { return Eigen::Vector3f(x_, y_, z_).cast<double>(); }
     [[nodiscard]] const float* xyz() const { return &x_; }
@@ -41,7 +41,7 @@ private:
     float x_ = 0.0F, y_ = 0.0F, z_ = 0.0F;
     std::uint32_t packed_ = 0;
 };
-static_assert(sizeof(PathPoint) == 16);
+static_assert(sizeof(PreviewPoint) == 16);
 
 /// A stretch of a chunk with a box around it, and what may stand for it from afar.
 struct PathBlock {
@@ -71,8 +71,8 @@ struct PathPlace {
 struct PathChunk {
     static constexpr std::size_t most_points = 65'534; ///< indices have 16 bits, one of them is no point
 
-    std::int64_t first = 0;        ///< number of its first point in the whole path
-    std::vector<PathPoint> points; ///< the first is the last of the chunk before
+    std::int64_t first = 0;           ///< number of its first point in the whole path
+    std::vector<PreviewPoint> points; ///< the first is the last of the chunk before
     std::vector<PathBlock> blocks;
     std::vector<std::uint16_t> indices;
     std::array<float, 3> min{}, max{};
@@ -91,7 +91,7 @@ public:
     [[nodiscard]] std::shared_ptr<const PathChunk> take_rest();
 
     /// `seconds`: that the piece takes as programmed.
-    void add(const PathPoint& point, double seconds);
+    void add(const PreviewPoint& point, double seconds);
 
     [[nodiscard]] std::int64_t count() const { return before_ + std::ssize(points_); }
 
@@ -99,7 +99,7 @@ private:
     [[nodiscard]] std::shared_ptr<const PathChunk> take();
 
     std::int64_t before_ = 0; ///< points of earlier chunks, without the shared one
-    std::vector<PathPoint> points_;
+    std::vector<PreviewPoint> points_;
     std::vector<float> seconds_; ///< of the piece that ends at each point
     double start_time_ = 0.0;
 };
@@ -112,7 +112,7 @@ struct PreviewPath {
     [[nodiscard]] bool empty() const { return chunks.empty(); }
     [[nodiscard]] Box3 bounds() const;
     /// Throws Defect if there is no such point.
-    [[nodiscard]] const PathPoint& point(std::int64_t n) const;
+    [[nodiscard]] const PreviewPoint& point(std::int64_t n) const;
     /// The points of a step: the first and one past the last; an empty range at the place where they would
     /// be.
     [[nodiscard]] std::pair<std::int64_t, std::int64_t> points_of(Step step) const;

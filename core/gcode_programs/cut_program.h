@@ -1,4 +1,4 @@
-// A G-code program of X, Y and Z on the road of plots: where its tool cuts and where it travels as a path,
+// A G-code program of X, Y and Z for the plot stages: where its tool cuts and where it travels as a path,
 // and seen from above as strokes. Source: KMITL master's thesis of 2006 on forming software, G-code to X-Y-Z.
 // Lengths mm, speeds mm/s, times s.
 #pragma once

@@ -387,7 +387,7 @@ private:
         if (!(feed_ > 0.0)) {
             refuse(1, "a feed move has no feed rate");
         }
-        constexpr double seconds_a_minute = 60.0;
+        constexpr double seconds_per_minute = 60.0;
         double way = linear_distance(at_, end);
         double feed = feed_;
         if (way <= same_place) {
@@ -398,7 +398,7 @@ private:
             way = std::sqrt(sum);
             feed = feed_ / unit_;
         }
-        return way / feed * seconds_a_minute;
+        return way / feed * seconds_per_minute;
     }
 };
 

@@ -4,7 +4,7 @@
 #include "core/gcode/canon_frame.h"
 #include "core/gcode/chords.h"
 #include "core/gcode/line_ends.h"
-#include "core/gcode_programs/internal/losses.h"
+#include "core/gcode_programs/internal/unsupported_features.h"
 #include "core/gcode_programs/placement.h"
 #include "core/gcode_programs/programmed_feed.h"
 #include "core/kinematics/travel.h"
@@ -184,7 +184,7 @@ private:
     std::filesystem::path file_;
     MachineProgramSettings settings_;
     MachineProgram result_;
-    internal::Losses losses_;
+    internal::UnsupportedFeatures losses_;
     Placement placement_;
     std::size_t taken_ = 0; ///< blocks that are not in it any more
     kinematics::AxisPositions last_taken_;

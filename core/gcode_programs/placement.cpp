@@ -2,7 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/gcode/modal_state.h"
-#include "core/gcode_programs/internal/losses.h"
+#include "core/gcode_programs/internal/unsupported_features.h"
 #include "core/gcode_programs/programmed_feed.h"
 #include "core/program/retract.h"
 

@@ -23,7 +23,7 @@ public:
     /// `start_known`: the axes are where the first move takes them to be. The machine must outlive it.
     Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known);
 
-    /// `line`: as in Losses.
+    /// `line`: as in UnsupportedFeatures.
     void command(const Command& command, std::string_view line);
     /// From `from` to `to`, machine positions in mm and degrees; before its blocks are made.
     void move(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);

@@ -10,7 +10,7 @@ namespace millwright::gcode {
 
 namespace {
 
-constexpr double seconds_a_minute = 60.0;
+constexpr double seconds_per_minute = 60.0;
 
 double distance_along_axes(const AxisValues& a, const AxisValues& b, std::initializer_list<Axis> axes) {
     double sum = 0.0;
@@ -52,7 +52,7 @@ void ProgrammedFeed::command(const Command& command, double unit) {
     }
 }
 
-std::optional<double> ProgrammedFeed::times_a_minute() const {
+std::optional<double> ProgrammedFeed::times_per_minute() const {
     if (!per_revolution_) {
         return 1.0;
     }
@@ -72,30 +72,30 @@ std::optional<double> ProgrammedFeed::duration(const AxisValues& from, const Axi
         return 0.0;
     }
     const double rate = angular_rate();
-    return rate > 0.0 ? std::optional(way / rate * seconds_a_minute) : std::nullopt;
+    return rate > 0.0 ? std::optional(way / rate * seconds_per_minute) : std::nullopt;
 }
 
 double ProgrammedFeed::angular_rate() const {
-    return angular_rate_ * times_a_minute().value_or(0.0);
+    return angular_rate_ * times_per_minute().value_or(0.0);
 }
 
 std::optional<double> ProgrammedFeed::angular_speed() const {
     const double found = angular_rate();
-    return found > 0.0 ? std::optional(from_degrees(found) / seconds_a_minute) : std::nullopt;
+    return found > 0.0 ? std::optional(from_degrees(found) / seconds_per_minute) : std::nullopt;
 }
 
 double ProgrammedFeed::rate() const {
-    return a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_ * times_a_minute().value_or(0.0);
+    return a_revolution_ > 0.0 ? a_revolution_ * rpm_ : rate_ * times_per_minute().value_or(0.0);
 }
 
 std::optional<double> ProgrammedFeed::duration(double length) const {
     const double found = rate();
-    return found > 0.0 ? std::optional(length / found * seconds_a_minute) : std::nullopt;
+    return found > 0.0 ? std::optional(length / found * seconds_per_minute) : std::nullopt;
 }
 
 std::optional<double> ProgrammedFeed::speed() const {
     const double found = rate();
-    return found > 0.0 ? std::optional(found / seconds_a_minute) : std::nullopt;
+    return found > 0.0 ? std::optional(found / seconds_per_minute) : std::nullopt;
 }
 
 } // namespace millwright::gcode

@@ -36,7 +36,7 @@ private:
     /// Degrees a minute, the same.
     [[nodiscard]] double angular_rate() const;
     /// What a rate has to be multiplied by, for it to be a minute; nothing where nobody knows.
-    [[nodiscard]] std::optional<double> times_a_minute() const;
+    [[nodiscard]] std::optional<double> times_per_minute() const;
 
     double rate_ = 0.0;           ///< mm per minute or per revolution
     double angular_rate_ = 0.0;   ///< degrees, the same

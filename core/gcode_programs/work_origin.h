@@ -1,7 +1,7 @@
 // Where a program's zero lies on the machine, for machines without a controller that keeps it.
 #pragma once
 
-#include "core/gcode/settings.h"
+#include "core/gcode/reader_settings.h"
 #include "core/geometry/vectors.h"
 
 #include <optional>

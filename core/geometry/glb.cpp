@@ -18,7 +18,7 @@ namespace millwright::geometry {
 
 namespace {
 
-constexpr double mm_a_metre = 1000.0;
+constexpr double mm_per_metre = 1000.0;
 constexpr double gamma = 2.2; // of sRGB, nearly; colours in a file are linear
 constexpr std::size_t most_points = 5'000'000;
 constexpr double farthest_m = 1e4;
@@ -116,7 +116,7 @@ tinygltf::Primitive primitive_of(tinygltf::Model& model, BinaryPart& binary, con
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = material_of(model, mesh.color);
-    primitive.attributes["POSITION"] = binary.vectors(mesh.positions, 1.0 / mm_a_metre, true);
+    primitive.attributes["POSITION"] = binary.vectors(mesh.positions, 1.0 / mm_per_metre, true);
     primitive.attributes["NORMAL"] = binary.vectors(mesh.normals, 1.0, false);
     primitive.indices = binary.indices(mesh.triangles);
     return primitive;
@@ -124,7 +124,7 @@ tinygltf::Primitive primitive_of(tinygltf::Model& model, BinaryPart& binary, con
 
 std::vector<double> matrix_of(const Frame& frame) {
     Eigen::Matrix4d matrix = frame.matrix();
-    matrix.topRightCorner<3, 1>() /= mm_a_metre;
+    matrix.topRightCorner<3, 1>() /= mm_per_metre;
     return {matrix.data(), matrix.data() + matrix.size()};
 }
 
@@ -177,7 +177,7 @@ private:
         }
         SolidMesh mesh;
         mesh.color = color_of(primitive.material);
-        mesh.positions = vectors(position->second, mm_a_metre);
+        mesh.positions = vectors(position->second, mm_per_metre);
         points_ += mesh.positions.size();
         if (points_ > most_points) {
             fail(fmt::format("there are more than {} points", most_points));

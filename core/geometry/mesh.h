@@ -11,8 +11,8 @@ namespace millwright::geometry {
 
 struct Mesh {
     std::vector<Vec3> positions;               ///< mm
-    std::vector<Vec3> normals;                 ///< unit, one a position; the neighbour's where degenerate
-    std::vector<Vec2> parameters;              ///< (u, v), one a position
+    std::vector<Vec3> normals;                 ///< unit, one per position; the neighbour's where degenerate
+    std::vector<Vec2> parameters;              ///< (u, v), one per position
     std::vector<std::array<int, 3>> triangles; ///< indices, counter-clockwise seen against the normal
 };
 

@@ -15,7 +15,7 @@ namespace millwright::geometry {
 struct SolidMesh {
     Vec3 color = Vec3::Constant(0.5);          ///< sRGB, 0 to 1
     std::vector<Vec3> positions;               ///<
-    std::vector<Vec3> normals;                 ///< unit, outwards; one a position
+    std::vector<Vec3> normals;                 ///< unit, outwards; one per position
     std::vector<std::array<int, 3>> triangles; ///< indices, counter-clockwise seen from outside
 };
 

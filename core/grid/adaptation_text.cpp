@@ -38,12 +38,12 @@ std::string mean_sentence(const ErrorSummary& error) {
                                      : "some moves are out of reach";
 }
 
-std::string iteration_sentence(const ImproverState& state) {
+std::string iteration_sentence(const OptimiserState& state) {
     return "Round " + std::to_string(state.round + 1) + ", iteration " + std::to_string(state.iteration) +
            ": " + mean_sentence(state.now);
 }
 
-std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance) {
+std::string unsolved_sentence(const OptimiserState& state, int iterations, double tolerance) {
     return fmt::format("The solver did not converge: round {} ended after {} with a residual of {:.3g}; "
                        "the tolerance is {}.",
                        state.round,

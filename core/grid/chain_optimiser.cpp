@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/grid/grid_promise.h"
+#include "core/grid/quality_guard.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +16,7 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr int iterations_a_step = 5;
+constexpr int iterations_per_step = 5;
 constexpr double settled_step = 1e-4;    // cells: an iteration that moves no node further has settled
 constexpr double room_for_corners = 0.9; // of the start's smallest corner triangle, where that is small
 constexpr double usual_corner = 0.02;
@@ -36,7 +36,7 @@ constexpr double descents_done = 0.97;
 constexpr double chain_judged = 0.99;
 
 void check_chain_settings(const ChainSettings& s) {
-    expects(s.candidates_a_gap >= 1 && s.candidates_a_gap <= 64, "there are 1 to 64 candidates per gap");
+    expects(s.candidates_per_gap >= 1 && s.candidates_per_gap <= 64, "there are 1 to 64 candidates per gap");
     expects(lies_between(s.narrowest_gap, 0.1, 1.0), "the narrowest gap is from 0.1 to 1");
     expects(lies_between(s.widest_gap, 1.0, 2.0), "the widest gap is from 1 to 2");
     expects(s.first_descent >= 0 && s.first_descent <= 100'000, "a descent has 0 to 100 000 iterations");
@@ -61,20 +61,20 @@ double score(const ErrorSummary& s) {
 }
 
 /// After which of `links` the best grid was the one that reached `best`; the later ones brought nothing more.
-std::string found_by(const std::vector<ImproverLink>& links, const ErrorSummary& best) {
-    const auto link = std::ranges::find_if(
-        links, [&](const ImproverLink& l) { return exactly_equal(score(l.of_best), score(best)); });
-    return link == links.end() ? std::string()
-                               : fmt::format("The best grid of the stage \"{}\" is kept", link->name);
+std::string found_by(const std::vector<ChainStage>& stages, const ErrorSummary& best) {
+    const auto stage = std::ranges::find_if(
+        stages, [&](const ChainStage& l) { return exactly_equal(score(l.of_best), score(best)); });
+    return stage == stages.end() ? std::string()
+                                 : fmt::format("The best grid of the stage \"{}\" is kept", stage->name);
 }
 
 /// Why the start stands after `links`, each reason once; whether links were taken until their paths as they
 /// are run were seen.
-std::string none_taken(const std::vector<ImproverLink>& links, bool worse_as_run) {
+std::string none_taken(const std::vector<ChainStage>& stages, bool worse_as_run) {
     std::vector<std::string> reasons;
-    for (auto link = links.begin() + 1; link != links.end(); ++link) { // behind the start's own
-        const std::string why = link->refused.empty() ? "no better than the start grid" : link->refused;
-        if (!(worse_as_run && link->refused.empty()) && std::ranges::count(reasons, why) == 0) {
+    for (auto stage = stages.begin() + 1; stage != stages.end(); ++stage) { // behind the start's own
+        const std::string why = stage->refused.empty() ? "no better than the start grid" : stage->refused;
+        if (!(worse_as_run && stage->refused.empty()) && std::ranges::count(reasons, why) == 0) {
             reasons.push_back(why);
         }
     }
@@ -123,7 +123,7 @@ void ChainOptimiser::measure_start(const Progress& progress) {
     widest_gap_mm_ = (1.0 + settings_.tracks.gap_allowance) * model_.track_gap(state_.best, direction_);
     state_.start = state_.now = state_.of_best = found;
     state_.note = "Start grid measured";
-    state_.links.push_back({"start", found, found, {}});
+    state_.stages.push_back({"start", found, found, {}});
     bests_.front().reached = found;
     state_.done = start_measured;
     stage_ = Stage::tracks;
@@ -166,7 +166,7 @@ std::string ChainOptimiser::consider(const NodeArray& nodes, const Progress& pro
 }
 
 void ChainOptimiser::end_link(std::string name, std::string refused) {
-    state_.links.push_back({std::move(name), state_.now, state_.of_best, std::move(refused)});
+    state_.stages.push_back({std::move(name), state_.now, state_.of_best, std::move(refused)});
     if (score(state_.of_best) < score(bests_.back().reached)) {
         bests_.push_back({state_.best, state_.of_best});
     }
@@ -190,7 +190,7 @@ void ChainOptimiser::optimise_tracks(const Progress& progress) {
 void ChainOptimiser::choose_tracks(const Progress& progress) {
     progress.report(0.0, "Measuring the candidate tracks");
     optimise_tracks(progress.part(0.0, 0.1));
-    const int a_gap = settings_.candidates_a_gap;
+    const int a_gap = settings_.candidates_per_gap;
     const TrackCandidates candidates(model_, start_, a_gap, settings_.tracks, progress.part(0.1, 0.5));
     const bool chosen = choose_by_cost("best tracks and nodes", candidates, progress.part(0.5, 0.6)) ||
                         choose_with_axis_priced(progress.part(0.6, 0.95));
@@ -198,7 +198,7 @@ void ChainOptimiser::choose_tracks(const Progress& progress) {
         take("best nodes of the start's tracks", candidates, a_gap, a_gap, progress.part(0.95, 1.0));
     }
     ++state_.round;
-    state_.note = state_.links.back().name;
+    state_.note = state_.stages.back().name;
     accepted_ = state_.best.array();
     state_.done = tracks_chosen;
     begin_descent(progress);
@@ -210,7 +210,7 @@ bool ChainOptimiser::choose_with_axis_priced(const Progress& progress) {
         return false;
     }
     const TrackCandidates candidates(
-        model_, start_, settings_.candidates_a_gap, priced, progress.part(0.0, 0.85));
+        model_, start_, settings_.candidates_per_gap, priced, progress.part(0.0, 0.85));
     if (!choose_by_cost("best tracks and nodes, with axis weight", candidates, progress.part(0.85, 1.0))) {
         return false;
     }
@@ -222,13 +222,13 @@ bool ChainOptimiser::choose_with_axis_priced(const Progress& progress) {
 bool ChainOptimiser::choose_by_cost(const std::string& name,
                                     const TrackCandidates& candidates,
                                     const Progress& progress) {
-    const int a_gap = settings_.candidates_a_gap;
+    const int a_gap = settings_.candidates_per_gap;
     const int nearest = static_cast<int>(std::ceil(settings_.narrowest_gap * a_gap));
     const int furthest = static_cast<int>(std::floor(settings_.widest_gap * a_gap));
     return take(name, candidates, std::max(1, nearest), furthest, progress);
 }
 
-/// The cheapest of `candidates` as the next link. True if it keeps the promise.
+/// The cheapest of `candidates` as the next stage. True if it keeps the promise.
 bool ChainOptimiser::take(const std::string& name,
                           const TrackCandidates& candidates,
                           int nearest,
@@ -294,17 +294,18 @@ void ChainOptimiser::begin_descent(const Progress& progress) {
 /// Each move by itself is not the whole truth: the path as it is run has the last word on each link's best.
 void ChainOptimiser::finish(const Progress& progress) {
     const Grid start = bests_.front().grid;
-    const GridPromise promise(model_, start, direction_, progress);
+    const QualityGuard guard(model_, start, direction_, progress);
     const bool better_by_move = bests_.size() > 1;
-    while (bests_.size() > 1 && !promise.kept_by(bests_.back().grid, progress)) {
+    while (bests_.size() > 1 && !guard.kept_by(bests_.back().grid, progress)) {
         bests_.pop_back();
     }
     descent_.reset();
     state_.best = bests_.back().grid;
     state_.of_best = bests_.back().reached;
     const bool gained = bests_.size() > 1;
-    state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
-    state_.note = gained ? found_by(state_.links, state_.of_best) : none_taken(state_.links, better_by_move);
+    state_.status = gained ? OptimiserStatus::converged : OptimiserStatus::no_gain;
+    state_.note =
+        gained ? found_by(state_.stages, state_.of_best) : none_taken(state_.stages, better_by_move);
     state_.reached = std::exchange(state_.current, state_.best.array());
     state_.now = state_.of_best;
     state_.done = 1.0;
@@ -317,7 +318,7 @@ void ChainOptimiser::descend(const Progress& progress) {
     PathDescent next = *descent_;
     bool going = true;
     int done = 0;
-    while (going && done < std::min(iterations_a_step, left)) {
+    while (going && done < std::min(iterations_per_step, left)) {
         going = next.iterate(progress) && next.last_step() > settled_step;
         ++done;
         progress.report(done_of_all(iterations_of_level_ + done));

@@ -4,7 +4,7 @@
 // leaps where a descent stands still.
 #pragma once
 
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 #include "core/grid/path_descent.h"
 #include "core/grid/track_candidates.h"
 #include "core/grid/track_optimiser.h"
@@ -18,7 +18,7 @@ namespace millwright::grid {
 /// Values outside their range throw Defect when the optimiser is made.
 struct ChainSettings {
     TrackSettings tracks{.tip_share = 1.0, .param_share = 0.0, .length_share = 1.0, .polish_sweeps = 15};
-    int candidates_a_gap = 8;    ///< places that a track may take between two of the start's, 1 to 64
+    int candidates_per_gap = 8;  ///< places that a track may take between two of the start's, 1 to 64
     double narrowest_gap = 0.75; ///< of chosen tracks, in gaps of the start, 0.1 to 1
     double widest_gap = 1.125;   ///< the same, 1 to 2
     int first_descent = 300;     ///< iterations at the exponent of `tracks`, at most, 0 to 100 000
@@ -35,9 +35,9 @@ struct ChainSettings {
 /// a few iterations of a descent a step. `best` has the least product of max and mean of the grids that keep
 /// the promise: max, mean, lmean and axis_max not above the start's, the track gap not above it by more than
 /// the allowance, no corner triangle below the least. In the end it is the best of a link whose path as it is
-/// run keeps the promise of GridPromise too. `norm` is the furthest way of a node in the last iteration, in
+/// run keeps the promise of QualityGuard too. `norm` is the furthest way of a node in the last iteration, in
 /// cells.
-class ChainOptimiser final : public GridImprover {
+class ChainOptimiser final : public GridOptimiser {
 public:
     /// `model` must outlive the optimiser. Throws Defect if a track of `start` is not straight.
     ChainOptimiser(const ErrorModel& model,
@@ -46,7 +46,7 @@ public:
                    ChainSettings settings);
 
     bool advance(const Progress& progress) override;
-    [[nodiscard]] const ImproverState& state() const override { return state_; }
+    [[nodiscard]] const OptimiserState& state() const override { return state_; }
 
 private:
     enum class Stage { start, tracks, descent, leap, done };
@@ -82,7 +82,7 @@ private:
     TrackDirection direction_;
     ChainSettings settings_;
     Stage stage_ = Stage::start;
-    ImproverState state_;
+    OptimiserState state_;
     std::vector<PlacedTrack> start_;
     double widest_gap_mm_ = 0.0;
     double moving_price_ = 0.0; // of the axis, while all nodes move

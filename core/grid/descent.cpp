@@ -23,7 +23,7 @@ double dot(const std::vector<Vec2>& a, const std::vector<Vec2>& b) {
         for (std::size_t k = first; k < first + count; ++k) {
             sum += a[k].dot(b[k]);
         }
-        sums[first / nodes_a_piece] = sum;
+        sums[first / nodes_per_piece] = sum;
     });
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }

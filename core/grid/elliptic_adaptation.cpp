@@ -5,11 +5,11 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/grid/discrete_minimiser.h"
-#include "core/grid/grid_promise.h"
 #include "core/grid/harmonic_functional.h"
 #include "core/grid/internal/adaptation_text.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid_then_minimiser.h"
+#include "core/grid/quality_guard.h"
 #include "core/grid/region.h"
 
 #include <algorithm>
@@ -42,22 +42,22 @@ bool has_failed(SolverStatus status) {
            status == SolverStatus::singular;
 }
 
-ImproverStatus as_improver_status(SolverStatus status) {
+OptimiserStatus as_optimiser_status(SolverStatus status) {
     switch (status) {
     case SolverStatus::converged:
-        return ImproverStatus::converged;
+        return OptimiserStatus::converged;
     case SolverStatus::folded:
-        return ImproverStatus::folded;
+        return OptimiserStatus::folded;
     case SolverStatus::not_finite:
-        return ImproverStatus::not_finite;
+        return OptimiserStatus::not_finite;
     case SolverStatus::singular:
-        return ImproverStatus::singular;
+        return OptimiserStatus::singular;
     case SolverStatus::running:
     case SolverStatus::iteration_limit:
     case SolverStatus::stalled:
         break;
     }
-    return ImproverStatus::iteration_limit;
+    return OptimiserStatus::iteration_limit;
 }
 
 /// Copies the outline of `from`, so that no rounding on the way to solver coordinates and back moves it.
@@ -173,7 +173,7 @@ EllipticAdaptation::EllipticAdaptation(const ErrorModel& model,
 }
 
 bool EllipticAdaptation::advance(const Progress& progress) {
-    if (at_.state.status != ImproverStatus::running) {
+    if (at_.state.status != OptimiserStatus::running) {
         return false;
     }
     progress.check();
@@ -181,16 +181,16 @@ bool EllipticAdaptation::advance(const Progress& progress) {
     if (!next.coarse_start) {
         measure_start(next, progress);
     }
-    if (next.ending != ImproverStatus::running) {
+    if (next.ending != OptimiserStatus::running) {
         confirm(next, progress.part(iterated, adaptation_judged));
     } else if (weight_ == nullptr && next.state.start.max <= no_error) {
-        next.state.status = ImproverStatus::no_gain;
+        next.state.status = OptimiserStatus::no_gain;
         next.state.note = "There is no error to reduce";
     } else {
         step(next, progress);
     }
     at_ = std::move(next);
-    const bool more = at_.state.status == ImproverStatus::running;
+    const bool more = at_.state.status == OptimiserStatus::running;
     if (!more) {
         at_.state.reached = at_.state.current;
     }
@@ -220,7 +220,7 @@ ErrorSummary EllipticAdaptation::finely(const Grid& grid, const Progress& progre
 double EllipticAdaptation::share_done(const Position& at) const {
     const double rounds = at.state.round + static_cast<double>(at.state.iteration - at.iterations_before) /
                                                settings_.max_iterations;
-    return at.ending != ImproverStatus::running ? iterated : iterated * rounds / settings_.max_rounds;
+    return at.ending != OptimiserStatus::running ? iterated : iterated * rounds / settings_.max_rounds;
 }
 
 /// Density of this round and, fading, of those before, as the weight of the next solver.
@@ -380,7 +380,7 @@ void EllipticAdaptation::fall(Position& at, SolverStatus failure) const {
     at.iterations_before = at.state.iteration;
     at.solver = nullptr;
     if (at.falls == most_falls || !has_adaptation() || at.functional.adaptation <= 0.0) {
-        at.ending = as_improver_status(failure);
+        at.ending = as_optimiser_status(failure);
         at.state.note = "Stopped: " + what;
         return;
     }
@@ -411,9 +411,9 @@ void EllipticAdaptation::end_round(Position& at, SolverStatus solved) const {
                              : std::isfinite(before) && std::isfinite(now) &&
                                    std::abs(now - before) <= settings_.error_change * at.coarse_start->mean;
     if (settled) {
-        at.ending = weight_ != nullptr ? as_improver_status(solved) : ImproverStatus::converged;
+        at.ending = weight_ != nullptr ? as_optimiser_status(solved) : OptimiserStatus::converged;
     } else if (at.state.round >= settings_.max_rounds) {
-        at.ending = ImproverStatus::iteration_limit;
+        at.ending = OptimiserStatus::iteration_limit;
     }
 }
 
@@ -436,7 +436,7 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
         share(n).report(0.0, "Evaluating " + what + " on the whole path");
     };
     tell(0, "the start grid");
-    const GridPromise promise(model_, start_, settings_.direction, share(0));
+    const QualityGuard guard(model_, start_, settings_.direction, share(0));
     CandidatePtr chosen;
     double least = infinity;
     int kept = 0;
@@ -444,7 +444,7 @@ void EllipticAdaptation::choose(Position& at, const Progress& progress) const {
     for (auto c = at.candidates.begin(); c != at.candidates.end() && kept < enough_kept; ++c) {
         const auto which = std::to_string(c - at.candidates.begin() + 1);
         tell(kept + 1, "grid " + which + " of " + std::to_string(at.candidates.size()));
-        const std::optional<ErrorSummary> path = promise.kept_by((*c)->grid, share(kept + 1));
+        const std::optional<ErrorSummary> path = guard.kept_by((*c)->grid, share(kept + 1));
         if (!path) {
             worse_elsewhere.push_back((*c)->error.mean);
             continue;
@@ -471,9 +471,9 @@ void EllipticAdaptation::confirm(Position& at, const Progress& progress) const {
     choose(at, progress);
     at.state.now = finely(Grid(at.state.current), progress);
     const bool better = !(at.state.best.array() == start_.array());
-    const bool failed = at.ending == ImproverStatus::folded || at.ending == ImproverStatus::not_finite ||
-                        at.ending == ImproverStatus::singular;
-    at.state.status = better || failed ? at.ending : ImproverStatus::no_gain;
+    const bool failed = at.ending == OptimiserStatus::folded || at.ending == OptimiserStatus::not_finite ||
+                        at.ending == OptimiserStatus::singular;
+    at.state.status = better || failed ? at.ending : OptimiserStatus::no_gain;
     if (failed) {
         at.state.note = ended;
     } else if (!at.unsolved.empty()) {

@@ -6,7 +6,7 @@
 
 #include "core/grid/elliptic_solver.h"
 #include "core/grid/error_weight.h"
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <cstddef>
 #include <functional>
@@ -55,7 +55,7 @@ using WeightOfError = std::function<WeightPtr(const WeightPtr& error_density)>;
 /// three such falls the adaptation ends with the solver's failure. At the end the best grid that fine
 /// sampling and the whole path (ErrorModel::on_path) do not find worse than the start, and whose tracks lie
 /// as close as they have to, is taken.
-class EllipticAdaptation final : public GridImprover {
+class EllipticAdaptation final : public GridOptimiser {
 public:
     /// Adapts `start` to the error of `model`, which must outlive this, or to `weight` (in solver
     /// coordinates) where one is given: that is one round after another until the solver converges. Throws
@@ -76,7 +76,7 @@ public:
     /// Also throws Error if the weight does.
     bool advance(const Progress& progress) override;
 
-    [[nodiscard]] const ImproverState& state() const override { return at_.state; }
+    [[nodiscard]] const OptimiserState& state() const override { return at_.state; }
 
     /// LV of the round that is running: that of the settings until a solver failed.
     [[nodiscard]] double adaptation() const { return at_.functional.adaptation; }
@@ -96,7 +96,7 @@ private:
 
     /// Everything that a step changes; a cancelled step is forgotten with its copy.
     struct Position {
-        ImproverState state;
+        OptimiserState state;
         Grid round_start;
         double round_start_error = 0.0;                 ///< mean
         std::optional<ErrorSummary> coarse_start{};     ///< by the settings' sampling; nothing before a step
@@ -111,10 +111,10 @@ private:
         double widest_gap = std::numeric_limits<double>::infinity(); ///< mm on the surface
         FunctionalWeights functional{};
         int falls = 0;
-        std::string weight_warning{};                    ///< as ImproverState::warning, of the weight alone
-        std::string unsolved{};                          ///< of the last round, a sentence; empty: converged
-        int iterations_before = 0;                       ///< done before the solver started
-        ImproverStatus ending = ImproverStatus::running; ///< how it will end, once confirmed
+        std::string weight_warning{}; ///< as OptimiserState::warning, of the weight alone
+        std::string unsolved{};       ///< of the last round, a sentence; empty: converged
+        int iterations_before = 0;    ///< done before the solver started
+        OptimiserStatus ending = OptimiserStatus::running; ///< how it will end, once confirmed
     };
 
     /// Whether the functional has an LV.

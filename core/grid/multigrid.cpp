@@ -129,7 +129,7 @@ std::size_t Multigrid::memory_bytes(int rows, int columns) {
     const auto nodes = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
     constexpr std::size_t copies = 3; // before a cycle, found by it, combined
     return LevelStack::memory_bytes(rows, columns) +
-           nodes * (Recombination::bytes_a_node() + copies * sizeof(Vec2));
+           nodes * (Recombination::bytes_per_node() + copies * sizeof(Vec2));
 }
 
 } // namespace millwright::grid

@@ -1,7 +1,7 @@
 #include "core/grid/path_descent.h"
 
 #include "core/base/error.h"
-#include "core/grid/bent_tracks.h"
+#include "core/grid/curved_tracks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ bool PathDescent::leap(const Progress& progress) {
     double reach = furthest_place;
     for (int sweep = 0; sweep < sweeps; ++sweep, reach *= narrowing) {
         const Progress part = progress.part(static_cast<double>(sweep) / sweeps, (sweep + 1.0) / sweeps);
-        found = shortest_bent_tracks(objective_, std::move(found), {.reach = reach}, part);
+        found = shortest_curved_tracks(objective_, std::move(found), {.reach = reach}, part);
     }
     const PathCost there = objective_.cost(found, progress);
     if (!(there.sum < (1.0 - least_gain) * value_)) {

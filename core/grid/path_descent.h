@@ -15,8 +15,8 @@ public:
     /// One step downhill; false if there is none. Throws Cancelled, leaving all as it was.
     bool iterate(const Progress& progress);
 
-    /// Takes the best places of whole tracks together (shortest_bent_tracks), coarsely and then finer; false,
-    /// and all stays, if that gains next to nothing. Throws Cancelled, leaving all as it was.
+    /// Takes the best places of whole tracks together (shortest_curved_tracks), coarsely and then finer;
+    /// false, and all stays, if that gains next to nothing. Throws Cancelled, leaving all as it was.
     bool leap(const Progress& progress);
 
     [[nodiscard]] const NodeArray& nodes() const { return nodes_; }

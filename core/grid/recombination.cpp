@@ -55,7 +55,7 @@ void Recombination::remember(const NodeArray& nodes, const NodeArray& residuals)
     }
 }
 
-std::size_t Recombination::bytes_a_node() {
+std::size_t Recombination::bytes_per_node() {
     return ((memory_length + 1) * 2 + memory_length) * sizeof(Vec2);
 }
 

@@ -14,7 +14,7 @@ namespace millwright::grid {
 
 namespace {
 
-constexpr int cells_a_step = 8; // of the monitor; a move of it is half a step long
+constexpr int cells_per_step = 8; // of the monitor; a move of it is half a step long
 
 std::vector<double> smoothed(const std::vector<double>& values) {
     std::vector<double> found(values.size());
@@ -30,7 +30,7 @@ PlacedTrack redistributed(const ErrorModel& model,
                           const RedistributionSettings& settings,
                           const Progress& progress) {
     const int moves = static_cast<int>(std::ssize(track.places)) - 1;
-    std::vector<double> density = step_monitor(model, track, cells_a_step * moves, progress);
+    std::vector<double> density = step_monitor(model, track, cells_per_step * moves, progress);
     for (int pass = 0; pass < settings.smoothings; ++pass) {
         density = smoothed(density);
     }
@@ -52,7 +52,7 @@ step_monitor(const ErrorModel& model, const PlacedTrack& track, int cells, const
         nodes.push_back(track.track.at(mix(first, last, static_cast<double>(n) / cells)));
     }
     const auto moves = model.lattice(nodes, coarse);
-    const int reach = std::min(cells, cells_a_step / 2); // cells in one move
+    const int reach = std::min(cells, cells_per_step / 2); // cells in one move
     std::vector<double> found;
     for (int n = 0; n < cells; ++n) {
         progress.check();
@@ -79,18 +79,18 @@ Redistribution::Redistribution(const ErrorModel& model,
 }
 
 bool Redistribution::advance(const Progress& progress) {
-    if (state_.status != ImproverStatus::running) {
+    if (state_.status != OptimiserStatus::running) {
         return false;
     }
     progress.report(0.0, "Redistributing the nodes of each track");
     const std::vector<MeasuredTrack> start = measured(model_, start_, fine, progress);
-    const TrackPromise promise = promise_of(model_, start, settings_.gap_allowance, progress);
+    const TrackQualityLimits limits = quality_limits_of(model_, start, settings_.gap_allowance, progress);
     std::vector<PlacedTrack> placed(start_.size());
     each_track(std::ssize(start_), progress.part(0.2, 0.7), [&](std::size_t t) {
         placed[t] = redistributed(model_, start_[t], settings_, progress);
     });
     const auto found = measured(model_, placed, fine, progress.part(0.7, 1.0));
-    const GuardedTracks best = never_worse(model_, {found}, start, promise, progress);
+    const GuardedTracks best = never_worse(model_, {found}, start, limits, progress);
     state_.start = summary(moves_of(start));
     state_.now = state_.of_best = summary(moves_of(best.tracks));
     std::vector<PlacedTrack> tracks;
@@ -103,7 +103,7 @@ bool Redistribution::advance(const Progress& progress) {
     state_.round = 1;
     state_.done = 1.0;
     const bool gained = best.kept_from_start < static_cast<int>(std::ssize(start_));
-    state_.status = gained ? ImproverStatus::converged : ImproverStatus::no_gain;
+    state_.status = gained ? OptimiserStatus::converged : OptimiserStatus::no_gain;
     state_.note = best.kept_from_start == 0 ? "Equal shares of the monitor on every track"
                                             : "Equal shares of the monitor; unchanged tracks: " +
                                                   std::to_string(best.kept_from_start);

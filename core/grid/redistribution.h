@@ -3,8 +3,8 @@
 // between two nodes, and is what the better methods are compared with.
 #pragma once
 
-#include "core/grid/improver.h"
-#include "core/grid/track_guard.h"
+#include "core/grid/grid_optimiser.h"
+#include "core/grid/track_quality_guard.h"
 
 namespace millwright::grid {
 
@@ -24,7 +24,7 @@ struct RedistributionSettings {
 step_monitor(const ErrorModel& model, const PlacedTrack& track, int cells, const Progress& progress);
 
 /// One step. `best` keeps the promise of never_worse().
-class Redistribution final : public GridImprover {
+class Redistribution final : public GridOptimiser {
 public:
     /// `model` must outlive this. Throws Defect if a track of `start` is not straight, or a setting has no
     /// sense.
@@ -34,12 +34,12 @@ public:
                    const RedistributionSettings& settings = {});
 
     bool advance(const Progress& progress) override;
-    [[nodiscard]] const ImproverState& state() const override { return state_; }
+    [[nodiscard]] const OptimiserState& state() const override { return state_; }
 
 private:
     const ErrorModel& model_;
     RedistributionSettings settings_;
-    ImproverState state_;
+    OptimiserState state_;
     std::vector<PlacedTrack> start_;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int region_raster =
     129; // places a side: a cell of the field is finer than a border that people draw
-constexpr int chords_a_side = 16; // of the outline on the surface
+constexpr int chords_per_side = 16; // of the outline on the surface
 
 bool on_edge(const Vec2& a, const Vec2& b, const Vec2& p) {
     constexpr double rounding = 1e-9; // of a parameter
@@ -47,8 +47,8 @@ std::vector<Vec3> chords_of(const std::vector<Vec2>& outline, const geometry::Pa
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Vec2& a = outline[k];
         const Vec2& b = outline[(k + 1) % outline.size()];
-        for (int n = 0; n < chords_a_side; ++n) {
-            const Vec2 uv = a + static_cast<double>(n) / chords_a_side * (b - a);
+        for (int n = 0; n < chords_per_side; ++n) {
+            const Vec2 uv = a + static_cast<double>(n) / chords_per_side * (b - a);
             chords.push_back(patch.position(uv.x(), uv.y()));
         }
     }

@@ -71,11 +71,11 @@ PlacedTrack polished(const ErrorModel& model,
 
 TrackCandidates::TrackCandidates(const ErrorModel& model,
                                  const std::vector<PlacedTrack>& start,
-                                 int candidates_a_gap,
+                                 int candidates_per_gap,
                                  const TrackSettings& settings,
                                  const Progress& progress)
     : model_(model), settings_(settings), tracks_(static_cast<int>(std::ssize(start))),
-      placed_(candidates_of(start, candidates_a_gap)), costs_(placed_.size()) {
+      placed_(candidates_of(start, candidates_per_gap)), costs_(placed_.size()) {
     each_track(std::ssize(placed_), progress, [&](std::size_t c) {
         costs_[c] = place_best_nodes(model_, placed_[c], settings_, progress);
     });

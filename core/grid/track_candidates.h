@@ -15,7 +15,7 @@ public:
     /// between the start's where no path is in reach. `model` must outlive this. Throws Cancelled.
     TrackCandidates(const ErrorModel& model,
                     const std::vector<PlacedTrack>& start,
-                    int candidates_a_gap,
+                    int candidates_per_gap,
                     const TrackSettings& settings,
                     const Progress& progress);
 

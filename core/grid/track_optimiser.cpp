@@ -90,7 +90,7 @@ MoveCost TrackOptimiser::cost_of(std::size_t track) const {
 void TrackOptimiser::measure_lattices(const Progress& progress) {
     progress.report(0.0, "Measuring the lattice moves");
     std::vector<MeasuredTrack> start = measured(model_, start_, fine, progress);
-    const TrackPromise promise = promise_of(model_, start, settings_.gap_allowance, progress);
+    const TrackQualityLimits limits = quality_limits_of(model_, start, settings_.gap_allowance, progress);
     std::vector<std::optional<MoveTable>> laid(start_.size());
     each_track(std::ssize(start_), progress.part(0.1, 0.99), [&](std::size_t t) {
         laid[t].emplace(moves_by(model_, start_[t], settings_, progress));
@@ -99,7 +99,7 @@ void TrackOptimiser::measure_lattices(const Progress& progress) {
         tables_.push_back(std::move(table).value());
     }
     measured_start_ = std::move(start);
-    promise_ = promise;
+    quality_limits_ = limits;
     state_.start = summary(moves_of(measured_start_));
     state_.now = state_.of_best = state_.start;
     state_.round = 1;
@@ -144,7 +144,7 @@ void TrackOptimiser::find_paths(const Progress& progress) {
         found[t] = path_of(t, limits[t]);
     });
     std::vector<MeasuredTrack> paths = measured(model_, found, fine, progress);
-    const GuardedTracks best = never_worse(model_, {paths}, measured_start_, promise_, progress);
+    const GuardedTracks best = never_worse(model_, {paths}, measured_start_, quality_limits_, progress);
     limits_ = limits;
     paths_ = std::move(paths);
     tables_.clear();
@@ -157,7 +157,7 @@ void TrackOptimiser::find_paths(const Progress& progress) {
     if (settings_.polish_sweeps > 0 && moves() > 1) {
         begin_polish();
     } else {
-        finish(ImproverStatus::converged);
+        finish(OptimiserStatus::converged);
     }
 }
 
@@ -185,7 +185,7 @@ void TrackOptimiser::sweep(const Progress& progress) {
     const double norm = *std::ranges::max_element(longest);
     const bool settled = norm < settled_sweep;
     if (settled || state_.iteration + 1 >= settings_.polish_sweeps) {
-        end_polish(next, settled ? ImproverStatus::converged : ImproverStatus::iteration_limit, progress);
+        end_polish(next, settled ? OptimiserStatus::converged : OptimiserStatus::iteration_limit, progress);
     } else {
         std::vector<MoveError> moves;
         std::vector<PlacedTrack> tracks;
@@ -205,14 +205,15 @@ void TrackOptimiser::sweep(const Progress& progress) {
 }
 
 void TrackOptimiser::end_polish(const std::vector<TrackPolish>& polished,
-                                ImproverStatus status,
+                                OptimiserStatus status,
                                 const Progress& progress) {
     std::vector<PlacedTrack> tracks;
     for (const TrackPolish& track : polished) {
         tracks.push_back(track.track());
     }
     const std::vector<MeasuredTrack> after = measured(model_, tracks, fine, progress);
-    const GuardedTracks best = never_worse(model_, {after, paths_}, measured_start_, promise_, progress);
+    const GuardedTracks best =
+        never_worse(model_, {after, paths_}, measured_start_, quality_limits_, progress);
     publish(best);
     state_.current = array_of(tracks);
     state_.note = note_of("Polished", best);
@@ -224,9 +225,9 @@ void TrackOptimiser::publish(const GuardedTracks& best) {
     state_.of_best = summary(moves_of(best.tracks));
 }
 
-void TrackOptimiser::finish(ImproverStatus status) {
+void TrackOptimiser::finish(OptimiserStatus status) {
     const bool gained = !(state_.best.array() == array_of(start_));
-    state_.status = gained ? status : ImproverStatus::no_gain;
+    state_.status = gained ? status : OptimiserStatus::no_gain;
     state_.reached = std::exchange(state_.current, state_.best.array());
     state_.now = state_.of_best;
     state_.done = 1.0;

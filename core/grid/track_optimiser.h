@@ -4,10 +4,10 @@
 // height hardly changes.
 #pragma once
 
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 #include "core/grid/polish.h"
-#include "core/grid/track_guard.h"
 #include "core/grid/track_path.h"
+#include "core/grid/track_quality_guard.h"
 #include "core/grid/track_settings.h"
 
 #include <vector>
@@ -19,7 +19,7 @@ namespace millwright::grid {
 /// polish's sampling, all else fine. `best` is above `start` neither in axis_max nor in max, mean and lmean,
 /// and its track gap is not above the start's by more than the allowance. `norm` is the longest way of a node
 /// in the last sweep, in mean steps of a track.
-class TrackOptimiser final : public GridImprover {
+class TrackOptimiser final : public GridOptimiser {
 public:
     /// `model` must outlive the optimiser. Throws Defect if a track of `start` is not straight
     /// (straight_tracks).
@@ -29,7 +29,7 @@ public:
                    const TrackSettings& settings);
 
     bool advance(const Progress& progress) override;
-    [[nodiscard]] const ImproverState& state() const override { return state_; }
+    [[nodiscard]] const OptimiserState& state() const override { return state_; }
 
 private:
     enum class Stage { lattices, paths, polish, done };
@@ -39,8 +39,8 @@ private:
     void sweep(const Progress& progress);
     void begin_polish();
     void
-    end_polish(const std::vector<TrackPolish>& polished, ImproverStatus status, const Progress& progress);
-    void finish(ImproverStatus status);
+    end_polish(const std::vector<TrackPolish>& polished, OptimiserStatus status, const Progress& progress);
+    void finish(OptimiserStatus status);
     void publish(const GuardedTracks& best);
 
     [[nodiscard]] std::vector<MoveLimits> aims(const Progress& progress) const;
@@ -51,10 +51,10 @@ private:
     const ErrorModel& model_;
     TrackSettings settings_;
     Stage stage_ = Stage::lattices;
-    ImproverState state_;
+    OptimiserState state_;
     std::vector<PlacedTrack> start_;
     std::vector<MeasuredTrack> measured_start_;
-    TrackPromise promise_;
+    TrackQualityLimits quality_limits_;
     std::vector<MoveTable> tables_;
     std::vector<MoveLimits> limits_; // [track], by the search's sampling
     std::vector<MeasuredTrack> paths_;

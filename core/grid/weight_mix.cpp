@@ -217,10 +217,10 @@ bool stroke(Field& field,
             const Vec2& to,
             const Brush& brush) {
     const double length = (patch.position(to.x(), to.y()) - patch.position(from.x(), from.y())).norm();
-    constexpr double dabs_a_radius = 4.0;
+    constexpr double dabs_per_radius = 4.0;
     constexpr double most_dabs = 1000.0;
     const int dabs =
-        static_cast<int>(std::clamp(std::ceil(dabs_a_radius * length / brush.radius_mm), 1.0, most_dabs));
+        static_cast<int>(std::clamp(std::ceil(dabs_per_radius * length / brush.radius_mm), 1.0, most_dabs));
     bool changed = false;
     for (int k = 1; k <= dabs; ++k) {
         const double t = static_cast<double>(k) / dabs;

@@ -2,9 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/jobs/internal/path_estimate.h"
-#include "core/jobs/internal/reach.h"
+#include "core/jobs/internal/position_envelope.h"
 #include "core/jobs/internal/running_job.h"
-#include "core/jobs/survey.h"
+#include "core/jobs/program_check.h"
 #include "core/jobs/tool_check.h"
 
 #include <fmt/format.h>
@@ -70,7 +70,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     expect_fit(job, able);
     internal::PathEstimate estimate;
     std::optional<drivers::ToolChanges> changes;
-    internal::Reach reach = check(job, able, before, estimate, changes);
+    internal::PositionEnvelope envelope = check(job, able, before, estimate, changes);
     constexpr double planning = 0.02; // of the progress
     std::shared_ptr<const motion::Trajectory> trajectory;
     if (job.program != nullptr && !job.points) {
@@ -87,7 +87,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
                                  log,
                                  trajectory,
                                  before,
-                                 std::move(reach),
+                                 std::move(envelope),
                                  std::move(estimate));
     drivers::Work work{job.program, trajectory, job.listing, {}, job.points, std::move(changes)};
     if (able.piecewise) {
@@ -233,26 +233,26 @@ void Dispatcher::set_optional_stop(bool on) {
 
 /// What a controller would have to find out by moving: read by its own rules, from where it stands. Throws
 /// what is wrong with it; returns where it can lead.
-internal::Reach Dispatcher::check(const Job& job,
-                                  const drivers::Capabilities& able,
-                                  const drivers::DriverStatus& before,
-                                  internal::PathEstimate& estimate,
-                                  std::optional<drivers::ToolChanges>& changes) const {
+internal::PositionEnvelope Dispatcher::check(const Job& job,
+                                             const drivers::Capabilities& able,
+                                             const drivers::DriverStatus& before,
+                                             internal::PathEstimate& estimate,
+                                             std::optional<drivers::ToolChanges>& changes) const {
     if (!able.plans || !able.dialect) {
         return {};
     }
     const std::vector<drivers::StoredOffset> offsets = driver_.stored_offsets();
-    Survey found = survey(controller_text(job),
-                          job.project,
-                          {*able.dialect,
-                           able.axes,
-                           before.position,
-                           offsets,
-                           before.modes,
-                           able.mist,
-                           able.piecewise,
-                           able.firmware,
-                           watched_lines(job)});
+    ProgramCheck found = check_program(controller_text(job),
+                                       job.project,
+                                       {*able.dialect,
+                                        able.axes,
+                                        before.position,
+                                        offsets,
+                                        before.modes,
+                                        able.mist,
+                                        able.piecewise,
+                                        able.firmware,
+                                        watched_lines(job)});
     if (job.program == nullptr) { // else it was checked block by block
         throw_first_with_count(faults_of(found, driver_.limits(), job.project));
     }

@@ -20,7 +20,7 @@ namespace millwright::jobs {
 
 namespace internal {
 class PathEstimate;
-class Reach;
+class PositionEnvelope;
 class RunningJob;
 struct JobRequest;
 } // namespace internal
@@ -66,11 +66,11 @@ private:
                           drivers::Work work,
                           const Progress& progress,
                           const Listener& listener);
-    [[nodiscard]] internal::Reach check(const Job& job,
-                                        const drivers::Capabilities& able,
-                                        const drivers::DriverStatus& before,
-                                        internal::PathEstimate& estimate,
-                                        std::optional<drivers::ToolChanges>& changes) const;
+    [[nodiscard]] internal::PositionEnvelope check(const Job& job,
+                                                   const drivers::Capabilities& able,
+                                                   const drivers::DriverStatus& before,
+                                                   internal::PathEstimate& estimate,
+                                                   std::optional<drivers::ToolChanges>& changes) const;
     void check_position(const Job& job, const drivers::DriverStatus& status) const;
     [[nodiscard]] std::vector<internal::JobRequest> take_requests();
     void bring_to_rest() noexcept;

@@ -1,8 +1,8 @@
 #include "core/jobs/run_from_line.h"
 
 #include "core/base/counted.h"
-#include "core/drivers/bare_line.h"
 #include "core/drivers/modal_lines.h"
+#include "core/drivers/stripped_line.h"
 #include "core/gcode/interpreter.h"
 #include "core/jobs/internal/program_from_line.h"
 #include "core/jobs/tool_check.h"
@@ -49,7 +49,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 /// Flow that makes "the lines before" mean something else than the lines above.
 void check_flow(const std::vector<std::string_view>& lines, const std::filesystem::path& file) {
     for (std::size_t n = 0; n < lines.size(); ++n) {
-        const std::string text = drivers::bare_line(lines[n]);
+        const std::string text = drivers::stripped_line(lines[n]);
         const int number = static_cast<int>(n) + 1;
         if (drivers::is_flow(text)) {
             refuse_start(file, number, "a program with subroutines or loops cannot be started in the middle");
@@ -64,21 +64,21 @@ void check_flow(const std::vector<std::string_view>& lines, const std::filesyste
 }
 
 /// G53, G28 and G30 go to machine positions, of which a program does not know the work coordinates.
-bool goes_by_the_machine(std::string_view bare_line) {
-    return has_code(bare_line, "G53") || has_code(bare_line, "G28") || has_code(bare_line, "G30");
+bool goes_by_the_machine(std::string_view stripped_line) {
+    return has_code(stripped_line, "G53") || has_code(stripped_line, "G28") || has_code(stripped_line, "G30");
 }
 
 /// The axes whose work coordinates the lines tell.
 class KnownAxes {
 public:
-    void take(std::string_view bare_line, bool incremental) {
-        if (goes_by_the_machine(bare_line)) {
+    void take(std::string_view stripped_line, bool incremental) {
+        if (goes_by_the_machine(stripped_line)) {
             known_.fill(false);
             left_ = true;
             return;
         }
         for (std::size_t n = 0; n < known_.size() && !incremental; ++n) {
-            known_[n] = known_[n] || bare_line.find(gcode::axis_letters[n]) != std::string_view::npos;
+            known_[n] = known_[n] || stripped_line.find(gcode::axis_letters[n]) != std::string_view::npos;
         }
     }
     /// '\0': all.
@@ -105,7 +105,7 @@ class Watcher final : public gcode::CanonSink {
 public:
     void move(const Move& move, const gcode::SourceLine& now) override {
         const double z = move.target[gcode::Axis::z];
-        if (move.kind == MoveKind::traverse && !goes_by_the_machine(drivers::bare_line(now.text))) {
+        if (move.kind == MoveKind::traverse && !goes_by_the_machine(drivers::stripped_line(now.text))) {
             highest_ = std::max(highest_.value_or(z), z);
         }
         const bool straight_down = z < here_[gcode::Axis::z] &&
@@ -178,7 +178,7 @@ ModalState state_before(
     KnownAxes known;
     for (int next = 1; next < line; ++next) {
         const bool more = reader.step();
-        const std::string words = drivers::bare_line(lines[static_cast<std::size_t>(next) - 1]);
+        const std::string words = drivers::stripped_line(lines[static_cast<std::size_t>(next) - 1]);
         known.take(words, reader.state().incremental);
         if (has_code(words, "G10") || has_code(words, "G92") || has_code(words, "G52")) {
             refuse_start(file,
@@ -223,7 +223,7 @@ void check_state(const ModalState& state,
     if (state.constant_surface_speed) {
         refuse_start(file, line, "constant surface speed is active here (G96)");
     }
-    const std::string text = drivers::bare_line(first_line);
+    const std::string text = drivers::stripped_line(first_line);
     const bool straight = state.motion == 0 || state.motion == 10 || state.motion == no_motion;
     const bool names_motion = text.find('G') != std::string::npos;
     if (!straight && !names_motion) {
@@ -256,7 +256,7 @@ std::string tool_words(const ModalState& state, const Watcher& watcher, Dialect 
 /// Whether one of the `lines` before has sent the axis somewhere.
 bool sends_axis(std::span<const std::string_view> lines, char letter) {
     return std::ranges::any_of(lines, [letter](std::string_view line) {
-        const std::string words = drivers::bare_line(line);
+        const std::string words = drivers::stripped_line(line);
         for (std::size_t at = words.find(letter); at != std::string::npos; at = words.find(letter, at + 1)) {
             constexpr std::string_view number = "0123456789.+-";
             if (at + 1 < words.size() && number.find(words[at + 1]) != std::string_view::npos) {

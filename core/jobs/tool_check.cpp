@@ -1,7 +1,7 @@
 #include "core/jobs/tool_check.h"
 
 #include "core/base/text.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "core/gcode/tool_comments.h"
 
 #include <fmt/format.h>
@@ -153,8 +153,8 @@ public:
         }
     }
 
-    void check_lines(const Survey& found) {
-        for (const Survey::Before& before : found.watched) {
+    void check_lines(const ProgramCheck& found) {
+        for (const ProgramCheck::Before& before : found.watched) {
             const int motion = before.modes.motion;
             constexpr int clockwise = 20;
             constexpr int none = 800;
@@ -236,15 +236,15 @@ public:
         if (empty) {
             found_.push_back({{file}, "the tool change macro is empty", {}});
         }
-        const Survey read = survey(plan.macro,
-                                   file,
-                                   {.dialect = able.dialect.value_or(gcode::Dialect::grbl),
-                                    .axes = able.axes,
-                                    .start = {},
-                                    .offsets = place_.offsets,
-                                    .modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0",
-                                    .mist = able.mist,
-                                    .firmware = able.firmware});
+        const ProgramCheck read = check_program(plan.macro,
+                                                file,
+                                                {.dialect = able.dialect.value_or(gcode::Dialect::grbl),
+                                                 .axes = able.axes,
+                                                 .start = {},
+                                                 .offsets = place_.offsets,
+                                                 .modes = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0",
+                                                 .mist = able.mist,
+                                                 .firmware = able.firmware});
         const std::vector<Diagnostic> faults = faults_of(read, place_.limits, file);
         found_.insert(found_.end(), faults.begin(), faults.end());
     }
@@ -325,7 +325,7 @@ std::vector<int> watched_lines(const Job& job) {
     return job.tool_change ? stop_lines(tool_calls(job.listing->text)) : std::vector<int>();
 }
 
-drivers::ToolChanges tool_changes(const Job& job, const Survey& found) {
+drivers::ToolChanges tool_changes(const Job& job, const ProgramCheck& found) {
     expects(job.tool_change.has_value(), "the job has tool changes of its own");
     drivers::ToolChanges changes{.plan = *job.tool_change, .stops = {}};
     for (const ToolCall& call : tool_calls(job.listing->text)) {
@@ -334,7 +334,7 @@ drivers::ToolChanges tool_changes(const Job& job, const Survey& found) {
             continue;
         }
         drivers::ToolStop stop{call.line, call.tool, sentence_of(call)};
-        const auto before = std::ranges::find(found.watched, call.line, &Survey::Before::line);
+        const auto before = std::ranges::find(found.watched, call.line, &ProgramCheck::Before::line);
         if (before != found.watched.end() && !before->z.empty()) {
             stop.program_z = before->z.max;
             stop.highest_z = std::max(before->z.max, found.start[2].value_or(before->z.max));
@@ -349,7 +349,7 @@ drivers::ToolChanges tool_changes(const Job& job, const Survey& found) {
 }
 
 std::vector<Diagnostic> tool_change_faults(const Job& job,
-                                           const Survey& found,
+                                           const ProgramCheck& found,
                                            const drivers::Capabilities& able,
                                            const ToolChangePlace& place) {
     if (!job.tool_change || tool_calls(job.listing->text).empty()) {
@@ -370,7 +370,7 @@ std::vector<Diagnostic> tool_change_faults(const Job& job,
     return faults.take();
 }
 
-std::string tool_before_start(const Job& job, const Survey& found) {
+std::string tool_before_start(const Job& job, const ProgramCheck& found) {
     if (!job.tool_change) {
         return {};
     }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/jobs/job.h"
-#include "core/jobs/survey.h"
+#include "core/jobs/program_check.h"
 
 #include <string>
 #include <string_view>
@@ -27,12 +27,12 @@ struct ToolCall {
 /// The text of a job as its controller executes it: without tool changes where they are made here.
 [[nodiscard]] std::string controller_text(const Job& job);
 
-/// SurveySettings::watched of a job: the lines at which it stops.
+/// ProgramCheckSettings::watched of a job: the lines at which it stops.
 [[nodiscard]] std::vector<int> watched_lines(const Job& job);
 
-/// What the driver is given of `job`, whose tool changes are made here; `found` is its survey with
+/// What the driver is given of `job`, whose tool changes are made here; `found` is its check with
 /// watched_lines().
-[[nodiscard]] drivers::ToolChanges tool_changes(const Job& job, const Survey& found);
+[[nodiscard]] drivers::ToolChanges tool_changes(const Job& job, const ProgramCheck& found);
 
 /// The machine before a job.
 struct ToolChangePlace {
@@ -44,13 +44,13 @@ struct ToolChangePlace {
 
 /// Why the tool changes of `job` cannot be made here; empty also where it has none.
 [[nodiscard]] std::vector<Diagnostic> tool_change_faults(const Job& job,
-                                                         const Survey& found,
+                                                         const ProgramCheck& found,
                                                          const drivers::Capabilities& able,
                                                          const ToolChangePlace& place);
 
 /// What a person has to confirm before a job, because nobody else knows it: which tool is in the spindle,
 /// where the job begins at a line or measures a tool before its first. Empty: nothing. `found` as for
 /// tool_changes().
-[[nodiscard]] std::string tool_before_start(const Job& job, const Survey& found);
+[[nodiscard]] std::string tool_before_start(const Job& job, const ProgramCheck& found);
 
 } // namespace millwright::jobs

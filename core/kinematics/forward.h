@@ -47,7 +47,7 @@ private:
     Vec3 begin_, step_; // of the linear axes after the last turn
 };
 
-/// Columns: one an axis. Rows 0-2: d tip / d position; rows 3-5: d axis / d position (mm, rad).
+/// Columns: one per axis. Rows 0-2: d tip / d position; rows 3-5: d axis / d position (mm, rad).
 using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 9>;
 [[nodiscard]] Jacobian jacobian(const MachineModel& machine, const AxisPositions& positions);
 

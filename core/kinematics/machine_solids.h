@@ -1,4 +1,4 @@
-// The bodies of a machine as solids with broken edges, made from what its file says: one a carrier.
+// The bodies of a machine as solids with broken edges, made from what its file says: one per carrier.
 #pragma once
 
 #include "core/geometry/glb.h"

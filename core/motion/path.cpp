@@ -23,7 +23,7 @@ struct Turn {
 
 } // namespace
 
-PathPoint Path::at(int block, double offset) const {
+PathDerivatives Path::at(int block, double offset) const {
     const auto n = static_cast<std::size_t>(block);
     const Segment* segment = &segments[n];
     std::size_t move = n;
@@ -34,7 +34,7 @@ PathPoint Path::at(int block, double offset) const {
     }
     const AxisPositions& a = positions[move];
     const AxisPositions& b = positions[move + 1];
-    PathPoint point;
+    PathDerivatives point;
     point.first = point.second = point.third = AxisPositions::Zero(a.size());
     point.position = positions[n + 1];
     if (!(segment->length > 0.0)) {

@@ -70,14 +70,14 @@ struct AxisLimits {
 };
 
 /// Axis positions and their derivatives by the way.
-struct PathPoint {
+struct PathDerivatives {
     kinematics::AxisPositions position, first, second, third;
 };
 
 struct Path {
     std::vector<AxisLimits> limits;                   ///< of each axis
     std::vector<kinematics::AxisPositions> positions; ///< programmed, before each block and after the last
-    std::vector<Segment> segments;                    ///< one a block
+    std::vector<Segment> segments;                    ///< one per block
     std::vector<double> part_length;        ///< chords of the tip on the part up to each of `positions`, mm
     double filter_time = 0.0;               ///< s, see timing.h; 0 without limits of jerk
     int look_ahead = 0;                     ///< moves that are known at a time; 0: all
@@ -89,7 +89,7 @@ struct Path {
     [[nodiscard]] double length() const { return segments.empty() ? 0.0 : segments.back().end(); }
     /// `offset` into the way of a block, 0 to its length: exactly a programmed position at both ends, unless
     /// the corner is rounded.
-    [[nodiscard]] PathPoint at(int block, double offset) const;
+    [[nodiscard]] PathDerivatives at(int block, double offset) const;
 };
 
 } // namespace millwright::motion

@@ -1,8 +1,8 @@
 #include "core/motion/planner.h"
 
 #include "core/base/error.h"
+#include "core/motion/internal/axis_path.h"
 #include "core/motion/internal/mechanism.h"
-#include "core/motion/internal/road.h"
 #include "core/motion/internal/timeline.h"
 #include "core/motion/plan_within.h"
 

@@ -35,7 +35,7 @@ void check(const Trajectory& trajectory, const StepSettings& settings) {
     if (!(settings.timer_frequency > 0.0 && std::isfinite(settings.timer_frequency))) {
         throw Error(fmt::format("the timer frequency of {} Hz must be positive", settings.timer_frequency));
     }
-    if (settings.min_interval < 1 || settings.jitter_limit < 0.0 || settings.most_pulses_a_block < 0) {
+    if (settings.min_interval < 1 || settings.jitter_limit < 0.0 || settings.most_pulses_per_block < 0) {
         throw Error(
             "the interval must be above 0; the jitter limit and the number of pulses must not be negative");
     }
@@ -122,7 +122,7 @@ private:
     }
     void check_number(int block, double pulses) const {
         const double most = static_cast<double>(
-            settings_.most_pulses_a_block > 0 ? settings_.most_pulses_a_block : usual_most_pulses);
+            settings_.most_pulses_per_block > 0 ? settings_.most_pulses_per_block : usual_most_pulses);
         if (pulses > most) {
             throw Error(
                 fmt::format(

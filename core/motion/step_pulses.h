@@ -17,11 +17,11 @@
 namespace millwright::motion {
 
 struct StepSettings {
-    std::vector<double> steps_per_unit;   ///< of each axis: steps a mm or a rad, > 0
-    double timer_frequency = 1e6;         ///< Hz
-    std::int64_t min_interval = 2;        ///< ticks between two pulses of one axis, >= 1
-    double jitter_limit = 0.0;            ///< s: pulses that are off by more are counted; 0: none is
-    std::int64_t most_pulses_a_block = 0; ///< of an axis: more is an error; 0: 1000 million
+    std::vector<double> steps_per_unit;     ///< of each axis: steps a mm or a rad, > 0
+    double timer_frequency = 1e6;           ///< Hz
+    std::int64_t min_interval = 2;          ///< ticks between two pulses of one axis, >= 1
+    double jitter_limit = 0.0;              ///< s: pulses that are off by more are counted; 0: none is
+    std::int64_t most_pulses_per_block = 0; ///< of an axis: more is an error; 0: 1000 million
 };
 
 struct StepPulse {

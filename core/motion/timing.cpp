@@ -54,7 +54,7 @@ Timing::Timing(std::vector<Phase> phases, double filter_time)
 void Timing::fill_buckets() {
     const double length = end() - phases_.front().time;
     const std::size_t count = phases_.size();
-    buckets_a_second_ = length > 0.0 ? static_cast<double>(count) / length : 0.0;
+    buckets_per_second_ = length > 0.0 ? static_cast<double>(count) / length : 0.0;
     buckets_.reserve(count + 2);
     std::size_t phase = 0;
     for (std::size_t n = 0; n <= count; ++n) {
@@ -69,7 +69,7 @@ void Timing::fill_buckets() {
 }
 
 std::size_t Timing::phase_at(double time) const {
-    const double since = (time - phases_.front().time) * buckets_a_second_;
+    const double since = (time - phases_.front().time) * buckets_per_second_;
     const double most = static_cast<double>(buckets_.size() - 2);
     // Rounding may place a time that is a bucket's begin into its neighbour.
     const auto bucket = static_cast<std::size_t>(std::clamp(since - 1e-6, 0.0, most));

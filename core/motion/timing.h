@@ -62,7 +62,7 @@ private:
     std::vector<Phase> phases_;
     std::vector<std::uint32_t>
         buckets_; ///< of equal time: the phase in which each begins; and the last phase
-    double buckets_a_second_ = 0.0;
+    double buckets_per_second_ = 0.0;
     std::vector<Sum> integrals_; ///< of the way up to each phase; empty without a filter
     double filter_time_ = 0.0;
 };

@@ -100,7 +100,7 @@ Sample Trajectory::at(double time) const {
         return sample;
     }
     const Place place = place_at(time);
-    const PathPoint point = path_->at(place.block, place.offset);
+    const PathDerivatives point = path_->at(place.block, place.offset);
     const Motion& s = place.motion;
     sample.block = place.block;
     sample.fraction = place.fraction;

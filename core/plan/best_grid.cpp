@@ -2,7 +2,7 @@
 // part, where the nearest point of the surface counts, another method may have found more.
 #include "core/plan/internal/best_grid.h"
 
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 
@@ -21,9 +21,9 @@ constexpr std::array others{project::GridMethod::tracks,
 /// Not worse than `uniform`, and its tracks not much farther apart.
 bool keeps_promise(const Evaluation& found,
                    const Evaluation& uniform,
-                   const Workpiece& workpiece,
+                   const CuttingSetup& cutting_setup,
                    double gap) {
-    return !is_worse(found, uniform, workpiece.machine) &&
+    return !is_worse(found, uniform, cutting_setup.machine) &&
            found.track_gap.value_or(0.0) <= gap * uniform.track_gap.value_or(0.0);
 }
 
@@ -51,17 +51,17 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
     standard.nv = by.input.nv;
     standard.direction = by.input.direction;
     standard.tracks = by.input.tracks;
-    bool kept = keeps_promise(best, uniform, by.workpiece, gap);
+    bool kept = keeps_promise(best, uniform, by.cutting_setup, gap);
     double from = chain;
     for (const project::GridMethod other : others) {
         const double to = from + (1.0 - chain) / static_cast<double>(others.size());
-        auto found = grid_if_possible({other, standard, by.workpiece}, uniform, progress.part(from, to));
+        auto found = grid_if_possible({other, standard, by.cutting_setup}, uniform, progress.part(from, to));
         from = to;
-        if (!found || keeps_grid(*found, uniform) || !keeps_promise(*found, uniform, by.workpiece, gap) ||
+        if (!found || keeps_grid(*found, uniform) || !keeps_promise(*found, uniform, by.cutting_setup, gap) ||
             (kept && score(*found) >= score(best))) {
             continue;
         }
-        found->outcome.links = std::move(best.outcome.links); // what the chain did stays told
+        found->outcome.stages = std::move(best.outcome.stages); // what the chain did stays told
         best = *std::move(found);
         best.outcome.note = fmt::format(
             "On the finished part no stage of the chain is better than \"{}\", so its grid is used.",

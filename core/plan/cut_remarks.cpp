@@ -7,10 +7,10 @@
 #include "core/base/units.h"
 #include "core/plan/grids.h"
 #include "core/plan/internal/cut_reach.h"
-#include "core/plan/internal/larger_figures.h"
+#include "core/plan/internal/worse_metrics.h"
 #include "core/plan/largest_error.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 
@@ -30,23 +30,23 @@ constexpr double little = 0.1; // of a height, beside it
 /// What helps against moves of a track of `points` that are `off`: the error falls with the square of their
 /// number, and has to become little beside `height`.
 std::string way_out(int points, double off, double height) {
-    const double most = project::most_nodes_a_side - 1;
+    const double most = project::most_nodes_per_side - 1;
     const double moves = std::ceil((points - 1) * std::sqrt(off / (little * height)));
     if (moves <= most) {
         return fmt::format("{} points per track are too few; about {} would be enough", points, moves + 1.0);
     }
     return fmt::format("with {} points per track, the maximum, it would be about {} mm; choose another "
                        "position of the part on the table, or another machine",
-                       project::most_nodes_a_side,
+                       project::most_nodes_per_side,
                        fixed(off * square((points - 1) / most), 4));
 }
 
 } // namespace
 
 std::optional<double> left_at_least(const Plan& plan) {
-    expects(plan.cut && plan.workpiece && plan.workpiece->tool.cutter, "a plan has its study");
+    expects(plan.cut && plan.cutting_setup && plan.cutting_setup->tool.cutter, "a plan has its study");
     const ScallopFigures& found = plan.cut->scallops;
-    return found.not_cut > 0.0 ? std::optional(cut_reach(*plan.workpiece->tool.cutter, found.by_formula))
+    return found.not_cut > 0.0 ? std::optional(cut_reach(*plan.cutting_setup->tool.cutter, found.by_formula))
                                : std::nullopt;
 }
 
@@ -92,7 +92,7 @@ std::string why_higher(const project::Project& project, const Plan& plan) {
     // Half a step from a track the height is what is wanted, and it grows with the square of the way.
     constexpr const char* at_outline = "along an outline parallel to the tracks, the last track may be a "
                                        "full step-over away, which leaves four times the height; ";
-    const bool trimmed = !plan.workpiece->trim.everything();
+    const bool trimmed = !plan.cutting_setup->trim.everything();
     const std::string found =
         fmt::format("the scallops are {} mm high instead of {} mm", fixed(left, 4), shortest(wanted));
     constexpr const char* where = "the scallop map and surface.csv of 'millwright cutter' show where";
@@ -100,10 +100,11 @@ std::string why_higher(const project::Project& project, const Plan& plan) {
     if (off < std::max(to_blame * (left - wanted), little * wanted)) {
         return fmt::format("{}: {}{}", found, trimmed ? at_outline : "", where);
     }
-    return fmt::format("{}: between the points of a track the tool itself is up to {} mm off the surface; {}",
-                       found,
-                       fixed(off, 4),
-                       way_out(path.outcome.grid.nodes_per_track(plan.workpiece->direction), off, wanted));
+    return fmt::format(
+        "{}: between the points of a track the tool itself is up to {} mm off the surface; {}",
+        found,
+        fixed(off, 4),
+        way_out(path.outcome.grid.nodes_per_track(plan.cutting_setup->direction), off, wanted));
 }
 
 std::string why_not_kept(const project::Project& project, const Evaluation& path) {
@@ -140,12 +141,12 @@ std::string sequencing_remark(const project::Project& project, const Plan& plan)
     if (!sequenced || has_own_path(project) || !path || !uniform || keeps_grid(*path, *uniform)) {
         return {};
     }
-    const kinematics::MachineModel& machine = plan.workpiece->machine;
+    const kinematics::MachineModel& machine = plan.cutting_setup->machine;
     if (!is_worse(*path, *uniform, machine)) { // a larger mean by length may be the grid's own
         return {};
     }
     const bool turns = !machine.rotary_axes().empty();
-    const std::string figures = larger_figures(path->closest, uniform->closest, turns);
+    const std::string figures = worse_metrics(path->closest, uniform->closest, turns);
     return figures.empty()
                ? std::string()
                : fmt::format("with its {} points the path over the grid \"{}\" has more error than over the "
@@ -171,7 +172,7 @@ std::string weight_remark(const project::EllipticInput& input) {
 }
 
 std::string certainty_remark(const Plan& plan, const Evaluation& path) {
-    const auto bounds = largest_error_bounds(*plan.workpiece, path);
+    const auto bounds = largest_error_bounds(*plan.cutting_setup, path);
     if (!bounds) {
         return {};
     }

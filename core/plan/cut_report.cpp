@@ -4,7 +4,7 @@
 #include "core/plan/cut_study.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/json_text.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
@@ -61,7 +61,7 @@ std::string cut_report_text(const project::Project& project, const Plan& plan) {
     json["made_by"] = "Millwright " + std::string(project::version());
     json["project"] = project.name;
     json["tool"] = project::tool_text(project.tool);
-    json["tool_length"] = project::tool_length_text(project.tool, plan.workpiece->machine);
+    json["tool_length"] = project::tool_length_text(project.tool, plan.cutting_setup->machine);
     json["strategy"] = project::row_of(project::strategies(), project.toolpath.strategy).id;
     json["grid"] = project::row_of(project::grid_methods(), program_grid(project)).id;
     json["error_mm"]["max"] = project::rounded(evaluation.closest.max);

@@ -29,12 +29,14 @@ struct Contact {
     Vec3 feed = Vec3::Zero(); ///< unit
 };
 
-Contact
-contact_at(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path, std::size_t n) {
+Contact contact_at(const CuttingSetup& cutting_setup,
+                   const toolpath::Profile& cutter,
+                   const Toolpath& path,
+                   std::size_t n) {
     const PathPoint& point = path.points[n];
     const Vec2& uv = point.origin.uv;
     const Vec2 heading = toolpath::heading_at(path, n);
-    Contact contact{workpiece.patch.derivatives(uv.x(), uv.y()),
+    Contact contact{cutting_setup.patch.derivatives(uv.x(), uv.y()),
                     toolpath::contact_shape(cutter, point.normal, point.pose.axis),
                     Vec3::Zero()};
     contact.feed = (heading.x() * contact.at.du + heading.y() * contact.at.dv).normalized();
@@ -42,12 +44,12 @@ contact_at(const Workpiece& workpiece, const toolpath::Profile& cutter, const To
 }
 
 std::vector<LocalGouge>
-find_local_gouges(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path) {
+find_local_gouges(const CuttingSetup& cutting_setup, const toolpath::Profile& cutter, const Toolpath& path) {
     constexpr double flat = 1e-9; // 1/mm: a radius of a thousand kilometres
     std::vector<LocalGouge> found;
     for (std::size_t n = 0; n < path.points.size(); ++n) {
         const PathPoint& point = path.points[n];
-        const Contact contact = contact_at(workpiece, cutter, path, n);
+        const Contact contact = contact_at(cutting_setup, cutter, path, n);
         const double least = toolpath::least_relative_curvature(contact.shape, contact.at, point.normal);
         if (least < -flat) {
             found.push_back({point.origin, point.contact, least});
@@ -144,13 +146,15 @@ struct Ridges {
     double step_over = infinity;
 };
 
-Ridges
-ridges_of(const Workpiece& workpiece, const toolpath::Profile& cutter, const Toolpath& path, double wanted) {
+Ridges ridges_of(const CuttingSetup& cutting_setup,
+                 const toolpath::Profile& cutter,
+                 const Toolpath& path,
+                 double wanted) {
     Ridges ridges;
     const Gaps gaps(path);
     const auto add = [&](std::size_t n, std::size_t track) {
         const PathPoint& point = path.points[n];
-        const Contact contact = contact_at(workpiece, cutter, path, n);
+        const Contact contact = contact_at(cutting_setup, cutter, path, n);
         const double radius = toolpath::effective_radius(contact.shape, point.normal, contact.feed);
         const Vec3 across = point.normal.cross(contact.feed);
         const double convex = toolpath::convex_curvature(contact.at, point.normal, across);
@@ -170,7 +174,7 @@ ridges_of(const Workpiece& workpiece, const toolpath::Profile& cutter, const Too
 
 struct ProgramMoves {
     std::vector<toolpath::SweptMove> moves;
-    std::vector<int> blocks; ///< one a move
+    std::vector<int> blocks; ///< one per move
 };
 
 /// But the first: nobody knows where the axes really stand before it.
@@ -271,30 +275,30 @@ void add_bites(CutStudy& study,
     }
 }
 
-CutStudy study(const Workpiece& workpiece,
+CutStudy study(const CuttingSetup& cutting_setup,
                const project::ToolInput& input,
                const Evaluation& path,
                const program::Program& program,
                const program::Listing* listing,
                const Progress& progress) {
-    const toolpath::Tool& tool = workpiece.tool;
+    const toolpath::Tool& tool = cutting_setup.tool;
     if (!tool.cutter) {
         throw Error("a point tool leaves no scallops and fits everywhere: there is nothing to check");
     }
     CutStudy study;
-    study.local_gouges = find_local_gouges(workpiece, *tool.cutter, path.toolpath);
-    const Ridges ridges = ridges_of(workpiece, *tool.cutter, path.toolpath, input.scallop_mm);
+    study.local_gouges = find_local_gouges(cutting_setup, *tool.cutter, path.toolpath);
+    const Ridges ridges = ridges_of(cutting_setup, *tool.cutter, path.toolpath, input.scallop_mm);
     study.step_over = ridges.step_over;
     progress.report(0.0, "Sweeping the tool over the surface");
     const ProgramMoves moves = moves_of(program);
-    study.swept = toolpath::swept_cut(workpiece.patch,
-                                      workpiece.flipped,
-                                      workpiece.machine,
+    study.swept = toolpath::swept_cut(cutting_setup.patch,
+                                      cutting_setup.flipped,
+                                      cutting_setup.machine,
                                       tool,
                                       moves.moves,
                                       sweep_settings(path.outcome.grid, *tool.cutter, ridges.highest),
                                       progress);
-    study.scallops = scallop_figures(study.swept, workpiece.trim, ridges.highest);
+    study.scallops = scallop_figures(study.swept, cutting_setup.trim, ridges.highest);
     add_bites(study, listing, moves.blocks, input.gouge_limit_mm);
     return study;
 }
@@ -308,8 +312,9 @@ double cut_reach(const toolpath::Profile& cutter, double by_formula) {
 
 CutStudy study_cut(const Plan& plan, const project::Project& project, const Progress& progress) {
     const auto& chosen = plan.program_path(project);
-    expects(plan.workpiece && chosen && plan.program && plan.listing, "a plan has the program that is cut");
-    return study(*plan.workpiece, project.tool, *chosen, *plan.program, plan.listing.get(), progress);
+    expects(plan.cutting_setup && chosen && plan.program && plan.listing,
+            "a plan has the program that is cut");
+    return study(*plan.cutting_setup, project.tool, *chosen, *plan.program, plan.listing.get(), progress);
 }
 
 CutStudy study_cut_of(project::GridMethod method,
@@ -317,18 +322,18 @@ CutStudy study_cut_of(project::GridMethod method,
                       const project::Project& project,
                       const Progress& progress) {
     const auto& path = plan.grid(method).evaluation;
-    expects(plan.workpiece && path, "the grid of the study has been evaluated");
-    const program::PostResult posted = program::post(plan.workpiece->machine,
+    expects(plan.cutting_setup && path, "the grid of the study has been evaluated");
+    const program::PostResult posted = program::post(plan.cutting_setup->machine,
                                                      path->toolpath,
                                                      path->axes,
                                                      program_settings(project.program),
                                                      {},
                                                      progress.part(0.0, 0.0));
-    return study(*plan.workpiece, project.tool, *path, posted.program, nullptr, progress);
+    return study(*plan.cutting_setup, project.tool, *path, posted.program, nullptr, progress);
 }
 
 void add_cut_study(Plan& plan, const project::Project& project, const Progress& progress) {
-    if (plan.workpiece->tool.cutter) {
+    if (plan.cutting_setup->tool.cutter) {
         plan.cut = std::make_shared<const CutStudy>(study_cut(plan, project, progress));
     }
 }
@@ -338,7 +343,7 @@ void add_compared_cut(project::GridMethod method,
                       const project::Project& project,
                       const Progress& progress) {
     GridResult& grid = plan.grid(method);
-    if (!plan.workpiece->tool.cutter || !grid.evaluation) {
+    if (!plan.cutting_setup->tool.cutter || !grid.evaluation) {
         return;
     }
     try {
@@ -348,8 +353,8 @@ void add_compared_cut(project::GridMethod method,
     }
 }
 
-std::string surface_csv(const Workpiece& workpiece, const toolpath::SweptCut& swept) {
-    const geometry::OutlineTree outline(workpiece.trim);
+std::string surface_csv(const CuttingSetup& cutting_setup, const toolpath::SweptCut& swept) {
+    const geometry::OutlineTree outline(cutting_setup.trim);
     std::string text = "u,v,x_mm,y_mm,z_mm,height_mm\n";
     for (int i = 0; i < swept.nu; ++i) {
         for (int j = 0; j < swept.nv; ++j) {
@@ -357,7 +362,7 @@ std::string surface_csv(const Workpiece& workpiece, const toolpath::SweptCut& sw
             if (!outline.contains(uv)) {
                 continue;
             }
-            const Vec3 at = workpiece.patch.position(uv.x(), uv.y());
+            const Vec3 at = cutting_setup.patch.position(uv.x(), uv.y());
             const double height = swept.height(i, j);
             for (const double value : {uv.x(), uv.y(), at.x(), at.y(), at.z()}) {
                 text += fixed(value, 6) + ",";

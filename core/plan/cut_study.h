@@ -69,6 +69,6 @@ void add_compared_cut(project::GridMethod method,
 
 /// surface.csv: u, v, x, y, z and the height that is left, a point of the raster a line; nothing where it was
 /// not cut. Points outside of the outline are not in it.
-[[nodiscard]] std::string surface_csv(const Workpiece& workpiece, const toolpath::SweptCut& swept);
+[[nodiscard]] std::string surface_csv(const CuttingSetup& cutting_setup, const toolpath::SweptCut& swept);
 
 } // namespace millwright::plan

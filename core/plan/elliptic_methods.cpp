@@ -4,7 +4,7 @@
 #include "core/grid/elliptic_adaptation.h"
 #include "core/plan/grids.h"
 #include "core/plan/internal/grid_method_rows.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 
@@ -39,10 +39,10 @@ grid::EllipticAdaptationSettings adaptation_settings(project::GridMethod method,
     return settings;
 }
 
-std::unique_ptr<grid::GridImprover> make_adaptation(project::GridMethod method,
-                                                    const project::GridInput& input,
-                                                    const toolpath::KinematicError& error,
-                                                    const grid::Grid& start) {
+std::unique_ptr<grid::GridOptimiser> make_adaptation(project::GridMethod method,
+                                                     const project::GridInput& input,
+                                                     const toolpath::KinematicError& error,
+                                                     const grid::Grid& start) {
     const grid::EllipticAdaptationSettings settings = adaptation_settings(method, input, error.patch());
     if (input.elliptic.weight == project::WeightSource::error) {
         return std::make_unique<grid::EllipticAdaptation>(error, start, settings);
@@ -106,13 +106,13 @@ bool same_metric(project::EllipticInput a, const project::EllipticInput& b) {
     return a == b;
 }
 
-std::unique_ptr<grid::GridImprover> elliptic_grid(GridStart from) {
+std::unique_ptr<grid::GridOptimiser> elliptic_grid(GridStart from) {
     expect_enough_nodes(from.input);
     expect_straight_sides(from.input, from.start);
     return make_adaptation(project::GridMethod::elliptic, from.input, from.error, from.start);
 }
 
-std::unique_ptr<grid::GridImprover> harmonic_map(GridStart from) {
+std::unique_ptr<grid::GridOptimiser> harmonic_map(GridStart from) {
     expect_straight_sides(from.input, from.start);
     return make_adaptation(project::GridMethod::harmonic, from.input, from.error, from.start);
 }
@@ -132,7 +132,7 @@ const GridMethodRow elliptic_row{
             return grid::memory_bytes(input.elliptic.solver, input.nu, input.nv);
         },
     .grid_name = "elliptic grid",
-    .improver = elliptic_grid};
+    .optimiser = elliptic_grid};
 
 const GridMethodRow harmonic_row{
     .method = project::GridMethod::harmonic,
@@ -147,6 +147,6 @@ const GridMethodRow harmonic_row{
             return grid::memory_bytes(grid::EllipticMethod::harmonic, input.nu, input.nv);
         },
     .grid_name = "harmonic map",
-    .improver = harmonic_map};
+    .optimiser = harmonic_map};
 
 } // namespace millwright::plan

@@ -21,7 +21,7 @@ namespace {
 
 /// The costs of a way know of no accelerations: of several the planner finds the fastest.
 toolpath::SequencedPath
-fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progress& progress) {
+fastest(const CuttingSetup& cutting_setup, const toolpath::Toolpath& path, const Progress& progress) {
     using toolpath::SequencingGoal;
     constexpr std::array goals{SequencingGoal::time, SequencingGoal::travel, SequencingGoal::nearest};
     toolpath::SequencedPath best;
@@ -30,14 +30,17 @@ fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progre
         const auto share = [&](double at) {
             return (static_cast<double>(n) + at) / static_cast<double>(goals.size());
         };
-        toolpath::SequencingSettings settings = workpiece.sequencing;
+        toolpath::SequencingSettings settings = cutting_setup.sequencing;
         settings.goal = goals[n];
-        toolpath::SequencedPath way = toolpath::sequenced(
-            workpiece.patch, workpiece.machine, path, settings, progress.part(share(0.0), share(0.8)));
+        toolpath::SequencedPath way = toolpath::sequenced(cutting_setup.patch,
+                                                          cutting_setup.machine,
+                                                          path,
+                                                          settings,
+                                                          progress.part(share(0.0), share(0.8)));
         const std::optional<double> time = planned_time(way.toolpath,
                                                         way.axes,
-                                                        workpiece.machine,
-                                                        workpiece.timing,
+                                                        cutting_setup.machine,
+                                                        cutting_setup.timing,
                                                         progress.part(share(0.8), share(1.0)));
         if (n == 0 || (time && *time < least)) {
             best = std::move(way);
@@ -48,43 +51,45 @@ fastest(const Workpiece& workpiece, const toolpath::Toolpath& path, const Progre
 }
 
 /// Before it is trimmed.
-toolpath::Toolpath contacts_of(const Workpiece& workpiece,
+toolpath::Toolpath contacts_of(const CuttingSetup& cutting_setup,
                                const grid::Grid& grid,
                                const toolpath::StrategySettings& strategy,
                                const Progress& progress) {
-    const geometry::OutlineTree outline(workpiece.trim);
-    const toolpath::Covering all{workpiece.patch,
-                                 workpiece.machine,
-                                 workpiece.tool,
+    const geometry::OutlineTree outline(cutting_setup.trim);
+    const toolpath::Covering all{cutting_setup.patch,
+                                 cutting_setup.machine,
+                                 cutting_setup.tool,
                                  grid,
-                                 workpiece.direction,
-                                 workpiece.flipped,
-                                 workpiece.trim.everything() ? nullptr : &outline};
+                                 cutting_setup.direction,
+                                 cutting_setup.flipped,
+                                 cutting_setup.trim.everything() ? nullptr : &outline};
     return toolpath::make_strategy(strategy)->contacts(all, progress);
 }
 
-toolpath::SequencedPath path_of(const Workpiece& workpiece,
+toolpath::SequencedPath path_of(const CuttingSetup& cutting_setup,
                                 const grid::Grid& grid,
                                 const toolpath::StrategySettings& strategy,
                                 const Progress& progress) {
     constexpr double covering = 0.5; // share of the work
-    toolpath::Toolpath contacts = contacts_of(workpiece, grid, strategy, progress.part(0.0, covering));
-    toolpath::refuse_turning_over(workpiece.patch, workpiece.trim, grid, contacts);
-    contacts = toolpath::trimmed(workpiece.patch, workpiece.trim, std::move(contacts), workpiece.flipped);
-    toolpath::Toolpath path =
-        toolpath::with_tool(workpiece.patch, workpiece.machine, workpiece.tool, std::move(contacts));
-    const bool consistent = workpiece.angle_mode == kinematics::AngleMode::consistent;
-    if (consistent && workpiece.sequencing.goal == toolpath::SequencingGoal::time) {
-        return fastest(workpiece, path, progress.part(covering, 1.0));
+    toolpath::Toolpath contacts = contacts_of(cutting_setup, grid, strategy, progress.part(0.0, covering));
+    toolpath::refuse_turning_over(cutting_setup.patch, cutting_setup.trim, grid, contacts);
+    contacts = toolpath::trimmed(
+        cutting_setup.patch, cutting_setup.trim, std::move(contacts), cutting_setup.flipped);
+    toolpath::Toolpath path = toolpath::with_tool(
+        cutting_setup.patch, cutting_setup.machine, cutting_setup.tool, std::move(contacts));
+    const bool consistent = cutting_setup.angle_mode == kinematics::AngleMode::consistent;
+    if (consistent && cutting_setup.sequencing.goal == toolpath::SequencingGoal::time) {
+        return fastest(cutting_setup, path, progress.part(covering, 1.0));
     }
     if (consistent) {
-        return toolpath::sequenced(workpiece.patch,
-                                   workpiece.machine,
+        return toolpath::sequenced(cutting_setup.patch,
+                                   cutting_setup.machine,
                                    std::move(path),
-                                   workpiece.sequencing,
+                                   cutting_setup.sequencing,
                                    progress.part(covering, 1.0));
     }
-    toolpath::AxisPath axes = toolpath::sequence_by_formulas(workpiece.machine, path, workpiece.angle_mode);
+    toolpath::AxisPath axes =
+        toolpath::sequence_by_formulas(cutting_setup.machine, path, cutting_setup.angle_mode);
     return {std::move(path), std::move(axes)};
 }
 
@@ -94,16 +99,16 @@ grid::TrackDirection across(grid::TrackDirection direction) {
 }
 
 std::optional<double>
-track_gap(const Workpiece& workpiece, const grid::Grid& grid, toolpath::StrategyKind strategy) {
-    const toolpath::KinematicError model = workpiece.error_model();
+track_gap(const CuttingSetup& cutting_setup, const grid::Grid& grid, toolpath::StrategyKind strategy) {
+    const toolpath::KinematicError model = cutting_setup.error_model();
     switch (strategy) {
     case toolpath::StrategyKind::zigzag:
-        return model.track_gap(grid, workpiece.direction);
+        return model.track_gap(grid, cutting_setup.direction);
     case toolpath::StrategyKind::spiral: // two sides of each round go across
-        return std::max(model.track_gap(grid, workpiece.direction),
-                        model.track_gap(grid, across(workpiece.direction)));
+        return std::max(model.track_gap(grid, cutting_setup.direction),
+                        model.track_gap(grid, across(cutting_setup.direction)));
     case toolpath::StrategyKind::fewest_points:
-        return model.track_gap(grid::Grid::uniform(grid.nu(), grid.nv()), workpiece.direction);
+        return model.track_gap(grid::Grid::uniform(grid.nu(), grid.nv()), cutting_setup.direction);
     case toolpath::StrategyKind::constant_scallop:
         break;
     }
@@ -112,28 +117,29 @@ track_gap(const Workpiece& workpiece, const grid::Grid& grid, toolpath::Strategy
 
 } // namespace
 
-toolpath::KinematicError Workpiece::error_model() const {
+toolpath::KinematicError CuttingSetup::error_model() const {
     const bool consistent = angle_mode == kinematics::AngleMode::consistent;
     return {patch, machine, flipped, tool, consistent ? sequencing : toolpath::SequencingSettings{}};
 }
 
-Evaluation evaluate(const Workpiece& workpiece,
+Evaluation evaluate(const CuttingSetup& cutting_setup,
                     GridOutcome outcome,
                     toolpath::MoveSampling sampling,
                     const Progress& progress) {
-    return evaluate(workpiece, std::move(outcome), {}, sampling, progress);
+    return evaluate(cutting_setup, std::move(outcome), {}, sampling, progress);
 }
 
-Evaluation evaluate(const Workpiece& workpiece,
+Evaluation evaluate(const CuttingSetup& cutting_setup,
                     GridOutcome outcome,
                     const toolpath::StrategySettings& strategy,
                     toolpath::MoveSampling sampling,
                     const Progress& progress) {
     progress.check();
     constexpr double sequencing = 0.3; // share of the work
-    toolpath::SequencedPath path = path_of(workpiece, outcome.grid, strategy, progress.part(0.0, sequencing));
-    toolpath::ErrorField field = toolpath::error_field(workpiece.patch,
-                                                       workpiece.machine,
+    toolpath::SequencedPath path =
+        path_of(cutting_setup, outcome.grid, strategy, progress.part(0.0, sequencing));
+    toolpath::ErrorField field = toolpath::error_field(cutting_setup.patch,
+                                                       cutting_setup.machine,
                                                        path.toolpath,
                                                        path.axes,
                                                        sampling,
@@ -141,7 +147,7 @@ Evaluation evaluate(const Workpiece& workpiece,
     const grid::ErrorSummary closest = toolpath::summary(field, Distance::closest, MoveKind::track);
     const grid::ErrorSummary param = toolpath::summary(field, Distance::param, MoveKind::track);
     const grid::ErrorSummary cross = toolpath::summary(field, Distance::closest, MoveKind::cross);
-    const std::optional<double> gap = track_gap(workpiece, outcome.grid, strategy.kind);
+    const std::optional<double> gap = track_gap(cutting_setup, outcome.grid, strategy.kind);
     const double length = toolpath::length(path.toolpath);
     return {std::move(outcome),
             std::move(path.toolpath),
@@ -152,7 +158,7 @@ Evaluation evaluate(const Workpiece& workpiece,
             cross,
             gap,
             length,
-            workpiece.sequencing.goal};
+            cutting_setup.sequencing.goal};
 }
 
 } // namespace millwright::plan

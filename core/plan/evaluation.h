@@ -3,7 +3,7 @@
 
 #include "core/base/progress.h"
 #include "core/geometry/trim.h"
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 #include "core/project/project.h"
 #include "core/region/region.h"
 #include "core/toolpath/error_field.h"
@@ -20,17 +20,17 @@ namespace millwright::plan {
 /// What a grid was made by, for the report and the people.
 struct GridOutcome {
     grid::Grid grid;
-    grid::ImproverStatus status = grid::ImproverStatus::converged;
+    grid::OptimiserStatus status = grid::OptimiserStatus::converged;
     int rounds = 0;
     int iterations = 0;
     double norm = 0.0;
-    /// Of the moves inside tracks: distance to the surface curve between the nodes, as the improver measured
+    /// Of the moves inside tracks: distance to the surface curve between the nodes, as the optimiser measured
     /// it at its start and for `grid`. Nothing for the uniform grid.
     std::optional<grid::ErrorSummary> start_by_curve = {}, by_curve = {};
     std::string note = {};                       ///< one sentence; empty for the uniform grid
-    std::string warning = {};                    ///< as grid::ImproverState::warning
-    std::vector<grid::ImproverLink> links = {};  ///< of the whole chain
-    std::vector<grid::IterationNorm> norms = {}; ///< as grid::ImproverState::norms
+    std::string warning = {};                    ///< as grid::OptimiserState::warning
+    std::vector<grid::ChainStage> stages = {};   ///< of the whole chain
+    std::vector<grid::IterationNorm> norms = {}; ///< as grid::OptimiserState::norms
 };
 
 struct Evaluation {
@@ -50,7 +50,7 @@ struct Evaluation {
 };
 
 /// Surface, machine and direction that an evaluation is made for. Shared by all stages of one plan.
-struct Workpiece {
+struct CuttingSetup {
     region::Region patch;
     kinematics::MachineModel machine;
     grid::TrackDirection direction = grid::TrackDirection::along_v;
@@ -66,14 +66,14 @@ struct Workpiece {
 
 /// The zigzag over the grid, looked at inside each move as in toolpath::error_field. Throws
 /// Error where a pose cannot be reached or a normal is degenerate.
-[[nodiscard]] Evaluation evaluate(const Workpiece& workpiece,
+[[nodiscard]] Evaluation evaluate(const CuttingSetup& cutting_setup,
                                   GridOutcome outcome,
                                   toolpath::MoveSampling sampling,
                                   const Progress& progress);
 
 /// The same of another strategy's path over the grid. Throws Error too where the surface cannot be covered
 /// like this.
-[[nodiscard]] Evaluation evaluate(const Workpiece& workpiece,
+[[nodiscard]] Evaluation evaluate(const CuttingSetup& cutting_setup,
                                   GridOutcome outcome,
                                   const toolpath::StrategySettings& strategy,
                                   toolpath::MoveSampling sampling,

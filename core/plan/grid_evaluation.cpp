@@ -1,6 +1,6 @@
 // A grid made by a method and measured on the finished part, never worse than the uniform one.
 #include "core/plan/grids.h"
-#include "core/plan/internal/larger_figures.h"
+#include "core/plan/internal/worse_metrics.h"
 
 #include <fmt/format.h>
 
@@ -12,15 +12,16 @@ namespace millwright::plan {
 namespace {
 
 Evaluation evaluated_grid(const GridMaking& by, const Progress& progress) {
-    const toolpath::KinematicError error = by.workpiece.error_model();
-    const auto improver = make_improver(by.method, by.input, error, by.effort);
+    const toolpath::KinematicError error = by.cutting_setup.error_model();
+    const auto optimiser = make_optimiser(by.method, by.input, error, by.effort);
     constexpr double measuring = 0.9; // share of the improvement
-    GridOutcome outcome = improved_outcome(*improver, progress.part(0.0, measuring));
-    return evaluate(by.workpiece, std::move(outcome), sampling_of(by.effort), progress.part(measuring, 1.0));
+    GridOutcome outcome = improved_outcome(*optimiser, progress.part(0.0, measuring));
+    return evaluate(
+        by.cutting_setup, std::move(outcome), sampling_of(by.effort), progress.part(measuring, 1.0));
 }
 
 std::string refusal(const Evaluation& found, const Evaluation& uniform, bool turns) {
-    const std::string larger = larger_figures(found.closest, uniform.closest, turns);
+    const std::string larger = worse_metrics(found.closest, uniform.closest, turns);
     return larger.empty() ? std::string("No grid better than the uniform grid was found, so it is kept.")
                           : fmt::format("The uniform grid is kept: over the whole path the new grid would "
                                         "have larger errors ({}).",
@@ -31,20 +32,20 @@ std::string refusal(const Evaluation& found, const Evaluation& uniform, bool tur
 
 Evaluation evaluation_by(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
     Evaluation found = evaluated_grid(by, progress);
-    if (!is_worse(found, uniform, by.workpiece.machine)) {
+    if (!is_worse(found, uniform, by.cutting_setup.machine)) {
         return found;
     }
     Evaluation kept = uniform;
     kept.outcome = {uniform.outcome.grid,
-                    grid::ImproverStatus::no_gain,
+                    grid::OptimiserStatus::no_gain,
                     found.outcome.rounds,
                     found.outcome.iterations,
                     found.outcome.norm,
                     found.outcome.start_by_curve,
                     found.outcome.start_by_curve,
-                    refusal(found, uniform, !by.workpiece.machine.rotary_axes().empty()),
+                    refusal(found, uniform, !by.cutting_setup.machine.rotary_axes().empty()),
                     found.outcome.warning,
-                    found.outcome.links,
+                    found.outcome.stages,
                     found.outcome.norms};
     return kept;
 }

@@ -35,7 +35,7 @@ struct GridMethodRow {
     std::string_view grid_name = {}; ///< of what takes that memory
     /// Null for the uniform grid, which is not improved. Throws Error where the
     /// settings or the start do not suit.
-    std::unique_ptr<grid::GridImprover> (*improver)(GridStart from) = nullptr;
+    std::unique_ptr<grid::GridOptimiser> (*optimiser)(GridStart from) = nullptr;
 };
 
 /// By GridMethod.

@@ -1,7 +1,7 @@
 #include "core/plan/internal/grid_stages.h"
 
 #include "core/plan/grid_method.h"
-#include "core/plan/left_out.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool carry_over(GridMethod method, const StageWork& work) {
     outcome.warning.clear();
     outcome.note = "The grid from before the last change, shown until the new one is ready.";
     Evaluation found =
-        evaluate(work.workpiece(), std::move(outcome), sampling_of(work.quality, input), work.progress);
+        evaluate(work.cutting_setup(), std::move(outcome), sampling_of(work.quality, input), work.progress);
     work.plan.grid(method).evaluation = shared(std::move(found), work.quality);
     return true;
 }
@@ -35,7 +35,8 @@ bool carry_over(GridMethod method, const StageWork& work) {
 bool measure_uniform(const StageWork& work) {
     const project::GridInput& input = work.project().grid;
     work.plan.grid(GridMethod::uniform).evaluation = shared(
-        evaluate(work.workpiece(), uniform_outcome(input), sampling_of(work.quality, input), work.progress),
+        evaluate(
+            work.cutting_setup(), uniform_outcome(input), sampling_of(work.quality, input), work.progress),
         work.quality);
     return true;
 }
@@ -47,7 +48,7 @@ bool improve(GridMethod method, bool live, const StageWork& work) {
     }
     const Effort effort = work.quality == Quality::exact ? Effort::full : Effort::live;
     work.plan.grid(method).evaluation =
-        shared(improved_evaluation({method, work.project().grid, work.workpiece(), effort},
+        shared(improved_evaluation({method, work.project().grid, work.cutting_setup(), effort},
                                    *work.plan.grid(GridMethod::uniform).evaluation,
                                    work.progress),
                work.quality);
@@ -74,7 +75,7 @@ toolpath::MoveSampling sampling_of(Quality quality, const project::GridInput& in
 
 std::shared_ptr<const Evaluation> shared(Evaluation found, Quality quality) {
     if (quality != Quality::exact) {
-        found.outcome.status = grid::ImproverStatus::running;
+        found.outcome.status = grid::OptimiserStatus::running;
     }
     return std::make_shared<const Evaluation>(std::move(found));
 }
@@ -84,9 +85,9 @@ Stage grid_stage(GridMethod method, const project::Project& project, const Scope
     const bool is_uniform = method == GridMethod::uniform;
     const bool compared = std::ranges::count(project::compared_methods, method) > 0;
     Stage stage{.key = grid_key(method), .title = row_of(method).title, .share = row_of(method).share};
-    stage.asked =
-        of_program || is_uniform || (scope.comparisons && compared && !is_left_out(project, method));
-    stage.reads = {{StageKind::workpiece}};
+    stage.asked = of_program || is_uniform ||
+                  (scope.comparisons && compared && !is_comparison_skipped(project, method));
+    stage.reads = {{StageKind::cutting_setup}};
     stage.same = [method](const Source& then, const Source& now) {
         return same_nodes(then.project.grid, now.project.grid) &&
                row_of(method).same_settings(then.project.grid, now.project.grid);

@@ -14,8 +14,8 @@ namespace millwright::plan {
 namespace {
 
 double megabytes(std::size_t bytes) {
-    constexpr double bytes_a_megabyte = 1e6;
-    return std::ceil(static_cast<double>(bytes) / bytes_a_megabyte);
+    constexpr double bytes_per_megabyte = 1e6;
+    return std::ceil(static_cast<double>(bytes) / bytes_per_megabyte);
 }
 
 } // namespace
@@ -51,24 +51,24 @@ void expect_memory(project::GridMethod method, const project::GridInput& input) 
     }
 }
 
-std::unique_ptr<grid::GridImprover> make_improver(project::GridMethod method,
-                                                  const project::GridInput& input,
-                                                  const toolpath::KinematicError& error,
-                                                  Effort effort,
-                                                  const std::optional<grid::Grid>& given) {
-    expects(row_of(method).improver != nullptr, "the uniform grid is not optimised");
+std::unique_ptr<grid::GridOptimiser> make_optimiser(project::GridMethod method,
+                                                    const project::GridInput& input,
+                                                    const toolpath::KinematicError& error,
+                                                    Effort effort,
+                                                    const std::optional<grid::Grid>& given) {
+    expects(row_of(method).optimiser != nullptr, "the uniform grid is not optimised");
     expect_memory(method, input);
     grid::Grid start = given ? *given : grid::Grid::uniform(input.nu, input.nv);
     expects(start.nu() == input.nu && start.nv() == input.nv, "a start grid has nu x nv nodes");
-    return row_of(method).improver({input, error, std::move(start), effort});
+    return row_of(method).optimiser({input, error, std::move(start), effort});
 }
 
 GridOutcome uniform_outcome(const project::GridInput& input) {
     return {grid::Grid::uniform(input.nu, input.nv)};
 }
 
-GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progress) {
-    const grid::ImproverState state = grid::run(improver, progress);
+GridOutcome improved_outcome(grid::GridOptimiser& optimiser, const Progress& progress) {
+    const grid::OptimiserState state = grid::run(optimiser, progress);
     progress.report(1.0);
     return {state.best,
             state.status,
@@ -79,7 +79,7 @@ GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progr
             state.of_best,
             state.note,
             state.warning,
-            state.links,
+            state.stages,
             state.norms};
 }
 

@@ -68,21 +68,21 @@ void let_paint_count(project::EllipticInput& input);
 /// Throws Error for a memory_fault() that the settings do not allow.
 void expect_memory(project::GridMethod method, const project::GridInput& input);
 
-/// A new improver for `method` (not uniform) from `start` of nu x nv nodes, or from the uniform grid without
+/// A new optimiser for `method` (not uniform) from `start` of nu x nv nodes, or from the uniform grid without
 /// one. `error` must outlive it. Throws Error if an expression of the settings has no sense, the solver needs
 /// more nodes, `start` does not suit the method (a boundary that slides and is not the square's; bent tracks
 /// where tracks are optimised), and as expect_memory().
-[[nodiscard]] std::unique_ptr<grid::GridImprover>
-make_improver(project::GridMethod method,
-              const project::GridInput& input,
-              const toolpath::KinematicError& error,
-              Effort effort = Effort::full,
-              const std::optional<grid::Grid>& start = std::nullopt);
+[[nodiscard]] std::unique_ptr<grid::GridOptimiser>
+make_optimiser(project::GridMethod method,
+               const project::GridInput& input,
+               const toolpath::KinematicError& error,
+               Effort effort = Effort::full,
+               const std::optional<grid::Grid>& start = std::nullopt);
 
 [[nodiscard]] GridOutcome uniform_outcome(const project::GridInput& input);
 
-/// Runs an improver to its end.
-[[nodiscard]] GridOutcome improved_outcome(grid::GridImprover& improver, const Progress& progress);
+/// Runs an optimiser to its end.
+[[nodiscard]] GridOutcome improved_outcome(grid::GridOptimiser& optimiser, const Progress& progress);
 
 /// What is being done when a grid is made, for people.
 [[nodiscard]] std::string_view title_of_making(project::GridMethod method);
@@ -91,7 +91,7 @@ make_improver(project::GridMethod method,
 struct GridMaking {
     project::GridMethod method; ///< not uniform
     const project::GridInput& input;
-    const Workpiece& workpiece;
+    const CuttingSetup& cutting_setup;
     Effort effort = Effort::full;
 };
 

@@ -6,9 +6,9 @@
 
 namespace millwright::plan {
 
-std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& workpiece,
+std::optional<geometry::DistanceBounds> largest_error_bounds(const CuttingSetup& cutting_setup,
                                                              const Evaluation& evaluation) {
-    if (workpiece.tool.cutter) {
+    if (cutting_setup.tool.cutter) {
         return std::nullopt;
     }
     const std::vector<toolpath::MoveDeviation>& moves = evaluation.field.moves;
@@ -22,7 +22,7 @@ std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& wo
     if (!worst) {
         return std::nullopt;
     }
-    const Vec3 tip = toolpath::actual_pose(workpiece.machine,
+    const Vec3 tip = toolpath::actual_pose(cutting_setup.machine,
                                            evaluation.axes.positions[*worst],
                                            evaluation.axes.positions[*worst + 1],
                                            moves[*worst].worst_at)
@@ -30,7 +30,7 @@ std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& wo
     const double found = moves[*worst].closest;
     const double tolerance = std::max(1e-3 * found, 1e-4);
     return geometry::DistanceBounds{
-        geometry::distance_bounds(workpiece.patch, tip, found, tolerance).at_least, found};
+        geometry::distance_bounds(cutting_setup.patch, tip, found, tolerance).at_least, found};
 }
 
 } // namespace millwright::plan

@@ -12,7 +12,7 @@ namespace millwright::plan {
 /// the tip is off at the place where it was found. At most: what was found, since no move is farther off than
 /// the point of the surface that was found for it. Nothing with a cutter, whose error is no distance of its
 /// tip, or without a move inside a track.
-[[nodiscard]] std::optional<geometry::DistanceBounds> largest_error_bounds(const Workpiece& workpiece,
+[[nodiscard]] std::optional<geometry::DistanceBounds> largest_error_bounds(const CuttingSetup& cutting_setup,
                                                                            const Evaluation& evaluation);
 
 } // namespace millwright::plan

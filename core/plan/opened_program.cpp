@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int most_errors = 1000;
-constexpr int steps_a_check = 4096;
+constexpr int steps_per_check = 4096;
 constexpr auto between_publications = std::chrono::milliseconds(40);
 
 /// A Grbl is taken to have the axes of the machine.
@@ -156,7 +156,7 @@ private:
             more = program.step();
             const gcode::SourcePlace place = program.place();
             execution->add(place.file == 0 ? place.line : 0, program.state());
-            if (execution->count() % steps_a_check == 0) {
+            if (execution->count() % steps_per_check == 0) {
                 look_around(now, program, progress);
             }
         }
@@ -212,7 +212,7 @@ private:
         for (bool more = true; more; ++step) {
             more = program.step();
             motion->step_of_block.resize(static_cast<std::size_t>(builder.block_count()), step);
-            if (step % steps_a_check == 0) {
+            if (step % steps_per_check == 0) {
                 progress.check();
             }
         }

@@ -115,7 +115,7 @@ public:
     /// What the session, if there is one, is about.
     [[nodiscard]] bool is_about(const project::Project& project, const Folders& folders) const {
         return session_ && session_->source.project.grid == project.grid &&
-               same_workpiece(session_->source, source_of(project, folders));
+               same_cutting_setup(session_->source, source_of(project, folders));
     }
     [[nodiscard]] std::shared_ptr<const WatchedAdaptation> watched() const {
         const std::scoped_lock lock(mutex_);
@@ -125,28 +125,29 @@ public:
     void wait_idle() const { background_.wait_idle(); }
 
 private:
-    /// All that the worker needs; the improver refers to the error model.
+    /// All that the worker needs; the optimiser refers to the error model.
     struct Session {
         project::GridMethod method;
         Source source;
         std::unique_ptr<const toolpath::KinematicError> error;
-        std::unique_ptr<grid::GridImprover> improver;
+        std::unique_ptr<grid::GridOptimiser> optimiser;
     };
 
     /// One step in the worker; true while there is more to do.
     bool step(Session& session, const Progress& progress) {
         bool more = false;
         const auto failure = failure_of([&] {
-            if (!session.improver) {
+            if (!session.optimiser) {
                 session.error = std::make_unique<const toolpath::KinematicError>(
-                    workpiece_of(session.source.project, session.source.folders).error_model());
-                session.improver = make_improver(session.method, session.source.project.grid, *session.error);
+                    cutting_setup_of(session.source.project, session.source.folders).error_model());
+                session.optimiser =
+                    make_optimiser(session.method, session.source.project.grid, *session.error);
             }
-            more = session.improver->advance(progress);
+            more = session.optimiser->advance(progress);
         });
         WatchedAdaptation now{session.method, false, nullptr, 0, failure};
-        if (session.improver) {
-            now.state = std::make_shared<const grid::ImproverState>(session.improver->state());
+        if (session.optimiser) {
+            now.state = std::make_shared<const grid::OptimiserState>(session.optimiser->state());
         }
         publish(session, std::move(now), more);
         return more;
@@ -190,14 +191,14 @@ private:
 };
 
 bool WatchedAdaptation::failed() const {
-    using grid::ImproverStatus;
-    return failure ||
-           (state && (state->status == ImproverStatus::folded || state->status == ImproverStatus::singular ||
-                      state->status == ImproverStatus::not_finite));
+    using grid::OptimiserStatus;
+    return failure || (state && (state->status == OptimiserStatus::folded ||
+                                 state->status == OptimiserStatus::singular ||
+                                 state->status == OptimiserStatus::not_finite));
 }
 
 bool WatchedAdaptation::ended() const {
-    return failure || (state && state->status != grid::ImproverStatus::running);
+    return failure || (state && state->status != grid::OptimiserStatus::running);
 }
 
 Pipeline::Pipeline(Folders folders, std::function<void()> wake)

@@ -37,7 +37,7 @@ struct PublishedPlan {
 struct WatchedAdaptation {
     project::GridMethod method = project::GridMethod::elliptic;
     bool playing = false;
-    std::shared_ptr<const grid::ImproverState> state; ///< null before the first step
+    std::shared_ptr<const grid::OptimiserState> state; ///< null before the first step
     std::uint64_t revision = 0;
     std::optional<Diagnostic> failure;
 

@@ -2,7 +2,7 @@
 
 #include "core/base/sentences.h"
 #include "core/plan/internal/derivation.h"
-#include "core/plan/left_out.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
 
 #include <fmt/format.h>
@@ -50,16 +50,16 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
     }
     for (const GridMethod method : methods) {
         const std::string sentence =
-            is_left_out(project, method) ? std::string() : memory_sentence(method, project.grid);
+            is_comparison_skipped(project, method) ? std::string() : memory_sentence(method, project.grid);
         if (!sentence.empty()) {
             sentences.push_back(with_full_stop(sentence));
         }
     }
     if (nodes > most_compared_nodes && scope.comparisons) {
-        constexpr double gigabytes_a_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
+        constexpr double gigabytes_per_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
         sentences.push_back(fmt::format("The path, program and motion of {} points need about {:.1f} GB.",
                                         nodes,
-                                        gigabytes_a_point * static_cast<double>(nodes)));
+                                        gigabytes_per_point * static_cast<double>(nodes)));
     }
     return sentences;
 }

@@ -5,11 +5,11 @@
 
 #include "core/base/error.h"
 #include "core/motion/trajectory.h"
+#include "core/plan/cutting_setup.h"
 #include "core/plan/evaluation.h"
 #include "core/plan/grids.h"
 #include "core/plan/plan_program.h"
 #include "core/plan/weight_map.h"
-#include "core/plan/workpiece_of.h"
 #include "core/program/listing.h"
 #include "core/program/post.h"
 #include "core/project/project.h"
@@ -36,8 +36,8 @@ struct GridResult {
 /// Everything derived from one project. Parts that a caller did not ask for are null.
 struct Plan {
     std::shared_ptr<const geometry::Surface> surface;
-    std::shared_ptr<const std::vector<geometry::Trim>> trims; ///< of the surface, one a patch; null: whole
-    std::shared_ptr<const Workpiece> workpiece;
+    std::shared_ptr<const std::vector<geometry::Trim>> trims; ///< of the surface, one per patch; null: whole
+    std::shared_ptr<const CuttingSetup> cutting_setup;
     std::vector<toolpath::SingularPoint> singular_points;
     std::array<GridResult, project::every_grid_method.size()> grids; ///< by GridMethod
     std::shared_ptr<const Evaluation> path;  ///< of a project that has_own_path(); null else

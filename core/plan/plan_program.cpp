@@ -8,7 +8,7 @@
 #include "core/plan/planned_time.h"
 #include "core/plan/strategy_path.h"
 #include "core/posts/release.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
@@ -35,9 +35,9 @@ header_of(const project::Project& project, const Plan& plan, const Evaluation& c
     std::vector<program::HeaderLine> lines{
         {"made by", fmt::format("Millwright {}", project::version())},
         {"project", project.name},
-        {"machine", plan.workpiece->machine.name()},
+        {"machine", plan.cutting_setup->machine.name()},
         {"tool", project::tool_text(project.tool)},
-        {"tool length", project::tool_length_text(project.tool, plan.workpiece->machine)},
+        {"tool length", project::tool_length_text(project.tool, plan.cutting_setup->machine)},
         {has_nodes ? "grid" : "path",
          has_nodes ? fmt::format("{} x {}, {}", grid.nu(), grid.nv(), method) : strategy_text(project)},
         {"distance from the surface",
@@ -45,8 +45,8 @@ header_of(const project::Project& project, const Plan& plan, const Evaluation& c
                      fixed(chosen.closest.max, 4),
                      fixed(chosen.closest.mean, 4))},
         {"note", checked_face_text(project)},
-        {plan.workpiece->tool.lean.upright() ? "tool axis from the normal"
-                                             : "tool axis from where it should be",
+        {plan.cutting_setup->tool.lean.upright() ? "tool axis from the normal"
+                                                 : "tool axis from where it should be",
          fmt::format("at most {} deg", fixed(to_degrees(chosen.closest.axis_max), 3))}};
     if (has_nodes && has_own_path(project)) {
         lines.insert(lines.begin() + 6, {"path", strategy_text(project)});
@@ -71,7 +71,7 @@ program::ProgramSettings program_settings(const project::ProgramInput& input) {
 void add_program(Plan& plan, const project::Project& project, const Progress& progress) {
     const Evaluation& chosen = *plan.program_path(project);
     const program::ProgramSettings settings = program_settings(project.program);
-    const kinematics::MachineModel& machine = plan.workpiece->machine;
+    const kinematics::MachineModel& machine = plan.cutting_setup->machine;
     progress.report(0.0, "Writing the program");
     progress.check();
     program::PostResult posted = program::post(
@@ -109,11 +109,11 @@ void add_unsequenced(Plan& plan, const project::Project& project, const Progress
     const auto& chosen = plan.program_path(project);
     plan.unsequenced = nullptr;
     plan.unsequenced_time.reset();
-    if (project.sequencing == project::SequencingInput{} || plan.workpiece->machine.rotary_axes().empty() ||
-        !chosen) {
+    if (project.sequencing == project::SequencingInput{} ||
+        plan.cutting_setup->machine.rotary_axes().empty() || !chosen) {
         return;
     }
-    Workpiece plain = *plan.workpiece;
+    CuttingSetup plain = *plan.cutting_setup;
     plain.sequencing = {};
     Evaluation before = evaluate(
         plain, chosen->outcome, strategy_settings(project), report_sampling, progress.part(0.0, 0.9));

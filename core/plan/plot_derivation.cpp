@@ -10,7 +10,6 @@
 #include "core/plan/plot_time.h"
 #include "core/plot/closing.h"
 #include "core/plot/hpgl/reader.h"
-#include "core/plot/left_alone.h"
 #include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
@@ -20,7 +19,8 @@
 #include "core/plot/picture/trace.h"
 #include "core/plot/plot_program.h"
 #include "core/plot/point_path.h"
-#include "core/plot/standing_tabs.h"
+#include "core/plot/tab_width.h"
+#include "core/plot/unprocessed_strokes.h"
 #include "core/project/assets.h"
 #include "core/project/gcode_file.h"
 
@@ -115,7 +115,7 @@ void PlotDerivation::time_as_drawn() {
 }
 
 void PlotDerivation::cut_drawing() {
-    plot::ReaderSettings reading = settings_.hpgl;
+    plot::HpglSettings reading = settings_.hpgl;
     const bool carved = project::is_carved(result_.input);
     if (carved) { // whole outlines
         reading.fill = reading.fill == plot::FillMode::hatched ? plot::FillMode::outline : reading.fill;
@@ -310,8 +310,10 @@ plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const 
     const plot::StrokePlan plan = plot::with_cutters(settings_.strokes, levels_of(as_drawn));
     const plot::Strokes drawn = plot::outlines_for(as_drawn, plan);
     plot::ShapedStrokes shaped = plot::shaped(drawn, plan);
-    if (const std::string left_alone = plot::left_alone(drawn, shaped, plan); !left_alone.empty()) {
-        result_.notices.push_back({.place = {.file = result_.input.file}, .message = left_alone, .hint = {}});
+    if (const std::string unprocessed_strokes = plot::unprocessed_strokes(drawn, shaped, plan);
+        !unprocessed_strokes.empty()) {
+        result_.notices.push_back(
+            {.place = {.file = result_.input.file}, .message = unprocessed_strokes, .hint = {}});
     }
     if (settings_.strokes.order) {
         shaped.strokes = plot::ordered(
@@ -341,7 +343,7 @@ void PlotDerivation::cut_strokes(const plot::Strokes& drawn, const Vec2& end) {
     result_.as_drawn = plot::work_time(drawn, levels_of(drawn), {}, Vec2::Zero(), end);
     result_.as_planned = plot::work_time(planned, result_.levels, {}, Vec2::Zero(), end);
     const auto standing = [&](std::vector<plot::Level> levels) {
-        return plot::with_standing_tabs(std::move(levels), settings_.strokes.tool_diameter);
+        return plot::with_tab_widths(std::move(levels), settings_.strokes.tool_diameter);
     };
     std::vector<plot::Level> in_order = result_.levels;
     std::ranges::stable_sort(in_order, {}, &plot::Level::order);

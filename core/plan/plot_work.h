@@ -55,7 +55,7 @@ struct PlotResult {
     std::shared_ptr<const plot::CutPath> path;
     std::shared_ptr<const PlotPoints> points; ///< of a point file, which a table plays as they are
     plot::PathLengths lengths;
-    /// What is cut, a level each; a relief's one; of a path file one a tool; of a V-carving by depth.
+    /// What is cut, a level each; a relief's one; of a path file one per tool; of a V-carving by depth.
     struct LevelPath {
         int pen = 1;                      ///< or the tool
         std::optional<double> depth = {}; ///< of moves of about this depth, mm; not given: of any

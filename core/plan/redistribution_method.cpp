@@ -7,7 +7,7 @@ namespace millwright::plan {
 
 namespace {
 
-std::unique_ptr<grid::GridImprover> redistribution(GridStart from) {
+std::unique_ptr<grid::GridOptimiser> redistribution(GridStart from) {
     expect_straight_tracks(from.input.direction, from.start);
     const grid::RedistributionSettings settings{.floor = from.input.redistribution.floor,
                                                 .smoothings = from.input.redistribution.smoothing_passes};
@@ -25,6 +25,6 @@ const GridMethodRow redistribution_row{
     .share = 0.05,
     .same_settings = [](const project::GridInput& a,
                         const project::GridInput& b) { return a.redistribution == b.redistribution; },
-    .improver = redistribution};
+    .optimiser = redistribution};
 
 } // namespace millwright::plan

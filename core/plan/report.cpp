@@ -6,10 +6,10 @@
 #include "core/plan/cut_study.h"
 #include "core/plan/grid_method.h"
 #include "core/plan/largest_error.h"
-#include "core/plan/left_out.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/json_text.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_json.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
@@ -28,21 +28,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 using project::GridMethod;
 
-std::string_view status_id(grid::ImproverStatus status) {
+std::string_view status_id(grid::OptimiserStatus status) {
     switch (status) {
-    case grid::ImproverStatus::running:
+    case grid::OptimiserStatus::running:
         return "running";
-    case grid::ImproverStatus::converged:
+    case grid::OptimiserStatus::converged:
         return "converged";
-    case grid::ImproverStatus::iteration_limit:
+    case grid::OptimiserStatus::iteration_limit:
         return "iteration-limit";
-    case grid::ImproverStatus::no_gain:
+    case grid::OptimiserStatus::no_gain:
         return "no-gain";
-    case grid::ImproverStatus::folded:
+    case grid::OptimiserStatus::folded:
         return "folded";
-    case grid::ImproverStatus::not_finite:
+    case grid::OptimiserStatus::not_finite:
         return "not-finite";
-    case grid::ImproverStatus::singular:
+    case grid::OptimiserStatus::singular:
         return "singular";
     }
     return "unknown";
@@ -76,15 +76,15 @@ Json known(double figure) {
 
 Json links_of(const GridOutcome& outcome) {
     Json json = Json::array();
-    for (const grid::ImproverLink& link : outcome.links) {
-        json.push_back({{"name", link.name},
-                        {"max", known(link.reached.max)},
-                        {"mean", known(link.reached.mean)},
-                        {"axis_max_deg", known(to_degrees(link.reached.axis_max))},
-                        {"best_max", known(link.of_best.max)},
-                        {"best_mean", known(link.of_best.mean)},
-                        {"best_axis_max_deg", known(to_degrees(link.of_best.axis_max))},
-                        {"refused", link.refused}});
+    for (const grid::ChainStage& stage : outcome.stages) {
+        json.push_back({{"name", stage.name},
+                        {"max", known(stage.reached.max)},
+                        {"mean", known(stage.reached.mean)},
+                        {"axis_max_deg", known(to_degrees(stage.reached.axis_max))},
+                        {"best_max", known(stage.of_best.max)},
+                        {"best_mean", known(stage.of_best.mean)},
+                        {"best_axis_max_deg", known(to_degrees(stage.of_best.axis_max))},
+                        {"refused", stage.refused}});
     }
     return json;
 }
@@ -95,7 +95,7 @@ Json errors(const Plan& plan,
             const std::optional<grid::ErrorSummary>& by_curve) {
     Json json;
     json["closest"] = distances(evaluation.closest);
-    if (const auto bounds = largest_error_bounds(*plan.workpiece, evaluation)) {
+    if (const auto bounds = largest_error_bounds(*plan.cutting_setup, evaluation)) {
         json["closest"]["max_at_least"] = project::rounded(bounds->at_least);
     }
     json["param"] = distances(evaluation.param);
@@ -111,14 +111,14 @@ Json errors(const Plan& plan,
     json["estimated_time_s"] = time ? Json(project::rounded(*time)) : Json();
     json["rotary_travel_deg"] = project::rounded(to_degrees(evaluation.axes.rotary_travel));
     json["largest_rotary_step_deg"] = project::rounded(to_degrees(toolpath::largest_rotary_step(
-        plan.workpiece->machine, evaluation.toolpath, evaluation.axes, toolpath::MoveKind::track)));
+        plan.cutting_setup->machine, evaluation.toolpath, evaluation.axes, toolpath::MoveKind::track)));
     json["status"] = status_id(evaluation.outcome.status);
     json["rounds"] = evaluation.outcome.rounds;
     json["iterations"] = evaluation.outcome.iterations;
     json["norm"] = norm_of(evaluation.outcome);
     json["note"] = evaluation.outcome.note;
     json["warning"] = evaluation.outcome.warning;
-    if (!evaluation.outcome.links.empty()) {
+    if (!evaluation.outcome.stages.empty()) {
         json["links"] = links_of(evaluation.outcome);
     }
     return json;
@@ -142,8 +142,8 @@ Json all_errors(const project::Project& project, const Plan& plan) {
             json[key] = errors(plan, method);
         } else if (const auto& failure = plan.grid(method).failure) {
             json[key] = {{"failed", to_text(*failure)}};
-        } else if (is_left_out(project, method)) {
-            json[key] = {{"left_out", left_out_sentence(project)}};
+        } else if (is_comparison_skipped(project, method)) {
+            json[key] = {{"left_out", skipped_comparisons_sentence(project)}};
         }
     }
     if (has_own_path(project)) {
@@ -154,7 +154,7 @@ Json all_errors(const project::Project& project, const Plan& plan) {
 
 Json surface_json(const project::Project& project, const Plan& plan) {
     const project::SurfaceInput& surface = project.surface;
-    const region::Region& patch = plan.workpiece->patch;
+    const region::Region& patch = plan.cutting_setup->patch;
     Json json;
     json["preset"] = surface.preset;
     json["patches"] = plan.surface->patch_count();
@@ -177,7 +177,7 @@ Json surface_json(const project::Project& project, const Plan& plan) {
 }
 
 Json machine_json(const project::Project& project, const Plan& plan) {
-    const kinematics::MachineModel& model = plan.workpiece->machine;
+    const kinematics::MachineModel& model = plan.cutting_setup->machine;
     Json json;
     json["file"] = project.machine.file;
     json["name"] = model.name();
@@ -264,7 +264,8 @@ Json program_json(const Plan& plan) {
 
 std::string report_text(const project::Project& project, const Plan& plan) {
     const bool compared = std::ranges::all_of(project::compared_methods, [&](GridMethod method) {
-        return plan.grid(method).evaluation || plan.grid(method).failure || is_left_out(project, method);
+        return plan.grid(method).evaluation || plan.grid(method).failure ||
+               is_comparison_skipped(project, method);
     });
     expects(plan.grid(GridMethod::uniform).evaluation && compared && plan.program && plan.listing &&
                 plan.trajectory,
@@ -277,7 +278,7 @@ std::string report_text(const project::Project& project, const Plan& plan) {
     json["project"] = project.name;
     json["surface"] = surface_json(project, plan);
     json["machine"] = machine_json(project, plan);
-    json["tool"] = tool(project.tool, plan.workpiece->machine);
+    json["tool"] = tool(project.tool, plan.cutting_setup->machine);
     json["grid"] = grid_json(project, chosen);
     json["error"] = all_errors(project, plan);
     json["singular_points"] = singular_points(plan);

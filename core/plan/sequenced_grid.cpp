@@ -49,17 +49,17 @@ Evaluation run_over(const GridMaking& by,
                     const GridOutcome& outcome,
                     const Evaluation& uniform,
                     const Progress& progress) {
-    const std::vector<SequencingGoal> ways = ways_for(by.workpiece.sequencing.goal);
+    const std::vector<SequencingGoal> ways = ways_for(by.cutting_setup.sequencing.goal);
     const auto share = [&](std::size_t n) {
         return static_cast<double>(n) / static_cast<double>(ways.size());
     };
-    Workpiece workpiece = by.workpiece;
+    CuttingSetup cutting_setup = by.cutting_setup;
     std::optional<Evaluation> best;
     for (std::size_t n = 0; n < ways.size(); ++n) {
-        workpiece.sequencing.goal = ways[n];
+        cutting_setup.sequencing.goal = ways[n];
         Evaluation found =
-            evaluate(workpiece, outcome, sampling_of(by.effort), progress.part(share(n), share(n + 1)));
-        const bool good = !is_worse(found, uniform, workpiece.machine);
+            evaluate(cutting_setup, outcome, sampling_of(by.effort), progress.part(share(n), share(n + 1)));
+        const bool good = !is_worse(found, uniform, cutting_setup.machine);
         if (good || !best || score(found) < score(*best)) {
             best = std::move(found);
         }
@@ -96,13 +96,13 @@ with_the_way(std::string note, const Evaluation& found, const Evaluation& unifor
 } // namespace
 
 Evaluation improved_evaluation(const GridMaking& by, const Evaluation& uniform, const Progress& progress) {
-    const toolpath::SequencingSettings& wanted = by.workpiece.sequencing;
-    const bool plain = by.workpiece.angle_mode != kinematics::AngleMode::consistent ||
+    const toolpath::SequencingSettings& wanted = by.cutting_setup.sequencing;
+    const bool plain = by.cutting_setup.angle_mode != kinematics::AngleMode::consistent ||
                        (wanted.goal == SequencingGoal::nearest && !(wanted.largest_step > 0.0));
     if (plain) {
         return best_grid(by, uniform, progress);
     }
-    Workpiece nearest = by.workpiece;
+    CuttingSetup nearest = by.cutting_setup;
     nearest.sequencing = {};
     const Evaluation start =
         evaluate(nearest, uniform.outcome, sampling_of(by.effort), progress.part(0.0, 0.05));

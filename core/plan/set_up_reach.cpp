@@ -36,33 +36,34 @@ std::string range_text(const toolpath::SetUpSearchSettings& within) {
 
 } // namespace
 
-std::optional<std::string> why_out_of_reach(const Workpiece& workpiece,
+std::optional<std::string> why_out_of_reach(const CuttingSetup& cutting_setup,
                                             const SetUpStudySettings& settings,
                                             const toolpath::SetUpPlace& place) {
     const kinematics::MachineModel machine =
-        workpiece.machine.with_workpiece_offset(toolpath::offset_of(place));
-    const region::Region patch = workpiece.patch.turned(place[3]);
+        cutting_setup.machine.with_workpiece_offset(toolpath::offset_of(place));
+    const region::Region patch = cutting_setup.patch.turned(place[3]);
     const grid::Grid grid = grid::Grid::uniform(settings.nodes, settings.nodes);
-    toolpath::Toolpath contacts = toolpath::zigzag(patch, grid, workpiece.direction, workpiece.flipped);
+    toolpath::Toolpath contacts =
+        toolpath::zigzag(patch, grid, cutting_setup.direction, cutting_setup.flipped);
     try {
-        (void)toolpath::sequence(machine,
-                                 toolpath::with_tool(patch, machine, workpiece.tool, std::move(contacts)));
+        (void)toolpath::sequence(
+            machine, toolpath::with_tool(patch, machine, cutting_setup.tool, std::move(contacts)));
     } catch (const Error& error) { // as the cost of the place
         return error.diagnostic().message;
     }
-    const bool in_reach = std::isfinite(set_up_cost(workpiece, settings).at(place, Progress()));
+    const bool in_reach = std::isfinite(set_up_cost(cutting_setup, settings).at(place, Progress()));
     return in_reach ? std::nullopt
                     : std::optional<std::string>("a point between two nodes cannot be reached");
 }
 
 void expect_in_reach(const toolpath::SetUpSearch& search,
-                     const Workpiece& workpiece,
+                     const CuttingSetup& cutting_setup,
                      const SetUpStudySettings& settings,
                      const toolpath::SetUpSearchSettings& within) {
     if (std::isfinite(search.best.cost)) {
         return;
     }
-    const std::string why = why_out_of_reach(workpiece, settings, search.start.place).value_or("");
+    const std::string why = why_out_of_reach(cutting_setup, settings, search.start.place).value_or("");
     throw Error(fmt::format("the machine cannot reach the whole part from any position in the search range "
                             "({}); at the current position, {}",
                             range_text(within),

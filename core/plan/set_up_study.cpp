@@ -15,9 +15,10 @@ namespace millwright::plan {
 
 using toolpath::SetUpParameter;
 
-toolpath::SetUpSearchSettings set_up_box(const Workpiece& workpiece, const SetUpStudySettings& settings) {
-    Vec3 middle = -workpiece.patch.control_box().center();
-    middle.z() = workpiece.machine.description().workpiece_offset.z();
+toolpath::SetUpSearchSettings set_up_box(const CuttingSetup& cutting_setup,
+                                         const SetUpStudySettings& settings) {
+    Vec3 middle = -cutting_setup.patch.control_box().center();
+    middle.z() = cutting_setup.machine.description().workpiece_offset.z();
     const Vec3 reach(settings.reach, settings.reach, settings.height_reach);
     toolpath::SetUpSearchSettings box;
     box.least << middle - reach, -settings.turn_reach;
@@ -25,17 +26,17 @@ toolpath::SetUpSearchSettings set_up_box(const Workpiece& workpiece, const SetUp
     return box;
 }
 
-toolpath::SetUpCost set_up_cost(const Workpiece& workpiece, const SetUpStudySettings& settings) {
-    return {workpiece.patch,
-            workpiece.machine,
-            workpiece.flipped,
+toolpath::SetUpCost set_up_cost(const CuttingSetup& cutting_setup, const SetUpStudySettings& settings) {
+    return {cutting_setup.patch,
+            cutting_setup.machine,
+            cutting_setup.flipped,
             grid::Grid::uniform(settings.nodes, settings.nodes),
-            workpiece.direction,
+            cutting_setup.direction,
             settings.goal,
-            workpiece.tool};
+            cutting_setup.tool};
 }
 
-SetUpStudy set_up_study(const Workpiece& workpiece,
+SetUpStudy set_up_study(const CuttingSetup& cutting_setup,
                         const SetUpStudySettings& settings,
                         const Progress& progress,
                         const toolpath::SetUpCosts& measure) {
@@ -44,11 +45,11 @@ SetUpStudy set_up_study(const Workpiece& workpiece,
     expects(settings.nodes >= 2 && settings.nodes <= 200,
             "the cost is measured on 2 to 200 nodes in each direction");
     constexpr double searching = 0.4; // share of the work
-    const toolpath::SetUpCost cost = set_up_cost(workpiece, settings);
-    toolpath::SetUpSearchSettings box = set_up_box(workpiece, settings);
+    const toolpath::SetUpCost cost = set_up_cost(cutting_setup, settings);
+    toolpath::SetUpSearchSettings box = set_up_box(cutting_setup, settings);
     SetUpStudy study;
     study.search = toolpath::search_set_up(cost, box, progress.part(0.0, searching), measure);
-    expect_in_reach(study.search, workpiece, settings, box);
+    expect_in_reach(study.search, cutting_setup, settings, box);
     const bool maps_turn = settings.across == SetUpParameter::turn || settings.up == SetUpParameter::turn;
     if (maps_turn && !(settings.turn_reach > 0.0)) { // it was not searched, but is to be seen
         box.least[3] = -pi;

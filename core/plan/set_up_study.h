@@ -25,11 +25,12 @@ struct SetUpStudySettings {
 };
 
 /// a and b about the part's own middle on the table's origin, c about the machine's.
-[[nodiscard]] toolpath::SetUpSearchSettings set_up_box(const Workpiece& workpiece,
+[[nodiscard]] toolpath::SetUpSearchSettings set_up_box(const CuttingSetup& cutting_setup,
                                                        const SetUpStudySettings& settings);
 
 /// What a uniform grid on this workpiece costs.
-[[nodiscard]] toolpath::SetUpCost set_up_cost(const Workpiece& workpiece, const SetUpStudySettings& settings);
+[[nodiscard]] toolpath::SetUpCost set_up_cost(const CuttingSetup& cutting_setup,
+                                              const SetUpStudySettings& settings);
 
 struct SetUpStudy {
     toolpath::SetUpSearch search;
@@ -39,7 +40,7 @@ struct SetUpStudy {
 /// `measure`: who measures many places at once; empty for this process's threads. The same bytes by any
 /// number of them. Throws Cancelled, what `measure` throws, and Error, with the reason, if no place is in
 /// reach.
-[[nodiscard]] SetUpStudy set_up_study(const Workpiece& workpiece,
+[[nodiscard]] SetUpStudy set_up_study(const CuttingSetup& cutting_setup,
                                       const SetUpStudySettings& settings,
                                       const Progress& progress,
                                       const toolpath::SetUpCosts& measure = {});

@@ -20,9 +20,9 @@ public:
             found.settings = settings;
             found.failure = failure_of([&] {
                 progress.report(0.0, "Searching for the best part position");
-                const Workpiece workpiece = workpiece_of(project, folders);
-                found.now = set_up_cost(workpiece, settings).start();
-                found.study = set_up_study(workpiece, settings, progress);
+                const CuttingSetup cutting_setup = cutting_setup_of(project, folders);
+                found.now = set_up_cost(cutting_setup, settings).start();
+                found.study = set_up_study(cutting_setup, settings, progress);
             });
             publish(std::move(found));
         });

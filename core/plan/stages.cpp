@@ -26,7 +26,7 @@ bool same_cutter(project::ToolInput a, const project::ToolInput& b) {
     return a == b;
 }
 
-constexpr StageKey the_workpiece{StageKind::workpiece};
+constexpr StageKey the_cutting_setup{StageKind::cutting_setup};
 constexpr StageKey the_program{StageKind::program};
 
 std::vector<Quality> coarse_if(bool quick) {
@@ -70,31 +70,31 @@ Stage trims_stage() {
 }
 
 /// Nothing holds, and nothing is made, of a project with faults but its surface.
-Stage workpiece_stage() {
-    return {.key = the_workpiece,
+Stage cutting_setup_stage() {
+    return {.key = the_cutting_setup,
             .same =
                 [](const Source& then, const Source& now) {
-                    return same_workpiece(then, now) && project::faults_of(now.project).empty();
+                    return same_cutting_setup(then, now) && project::faults_of(now.project).empty();
                 },
             .make =
                 [](const StageWork& work) {
                     refuse_faults(work.project());
-                    work.plan.workpiece =
-                        std::make_shared<const Workpiece>(workpiece_of(work.project(), work.source.folders));
+                    work.plan.cutting_setup = std::make_shared<const CuttingSetup>(
+                        cutting_setup_of(work.project(), work.source.folders));
                     return true;
                 },
-            .clear = [](Plan& plan) { plan.workpiece = nullptr; },
+            .clear = [](Plan& plan) { plan.cutting_setup = nullptr; },
             .qualities = {Quality::carried, Quality::exact}};
 }
 
 Stage singular_points_stage() {
     return {.key = {StageKind::singular_points},
-            .reads = {the_workpiece},
+            .reads = {the_cutting_setup},
             .same = [](const Source&, const Source&) { return true; },
             .make =
                 [](const StageWork& work) {
                     work.plan.singular_points =
-                        toolpath::singular_points(work.workpiece().patch, work.workpiece().machine);
+                        toolpath::singular_points(work.cutting_setup().patch, work.cutting_setup().machine);
                     return true;
                 },
             .clear = [](Plan& plan) { plan.singular_points.clear(); },
@@ -107,7 +107,7 @@ Stage path_stage(const project::Project& project) {
             .title = title_of_path,
             .share = 0.1,
             .asked = has_own_path(project),
-            .reads = {the_workpiece, grid_key(GridMethod::uniform), grid_key(program_grid(project))},
+            .reads = {the_cutting_setup, grid_key(GridMethod::uniform), grid_key(program_grid(project))},
             .same =
                 [](const Source& then, const Source& now) {
                     return has_own_path(now.project) && has_own_path(then.project) &&
@@ -117,7 +117,7 @@ Stage path_stage(const project::Project& project) {
                 [](const StageWork& work) {
                     work.plan.path =
                         shared(path_evaluation(work.project(),
-                                               work.workpiece(),
+                                               work.cutting_setup(),
                                                *work.plan.grid(program_grid(work.project())).evaluation,
                                                *work.plan.grid(GridMethod::uniform).evaluation,
                                                sampling_of(work.quality, work.project().grid),
@@ -149,7 +149,7 @@ Stage program_stage(const project::Project& project) {
     return {.key = the_program,
             .title = "Writing the program",
             .share = 0.1,
-            .reads = {the_workpiece, grid_key(GridMethod::uniform), key_of_path(project)},
+            .reads = {the_cutting_setup, grid_key(GridMethod::uniform), key_of_path(project)},
             .same = same_program,
             .make =
                 [](const StageWork& work) {
@@ -179,7 +179,7 @@ Stage cut_stage(const project::Project& project, const Scope& scope) {
     return {.key = {StageKind::cut},
             .share = 0.1,
             .asked = scope.cut,
-            .reads = {the_workpiece, key_of_path(project), the_program},
+            .reads = {the_cutting_setup, key_of_path(project), the_program},
             .same = same_tool_and_program,
             .make =
                 [](const StageWork& work) {
@@ -200,12 +200,12 @@ Stage weight_stage(const project::Project& project, const Scope& scope) {
     return {.key = {StageKind::weight},
             .share = 0.02,
             .asked = scope.weight,
-            .reads = {the_workpiece},
+            .reads = {the_cutting_setup},
             .same = same_weight,
             .make =
                 [](const StageWork& work) {
                     work.plan.weight = std::make_shared<const WeightMap>(
-                        weight_map(work.project().grid, work.workpiece(), work.progress));
+                        weight_map(work.project().grid, work.cutting_setup(), work.progress));
                     return true;
                 },
             .clear = [](Plan& plan) { plan.weight = nullptr; },
@@ -218,7 +218,7 @@ Stage time_stage(GridMethod method, const Scope& scope) {
     return {.key = {StageKind::time, method},
             .share = 0.01,
             .asked = scope.times,
-            .reads = {the_workpiece, grid_key(method)},
+            .reads = {the_cutting_setup, grid_key(method)},
             .same = [](const Source& then,
                        const Source& now) { return then.project.program == now.project.program; },
             .make =
@@ -227,8 +227,10 @@ Stage time_stage(GridMethod method, const Scope& scope) {
                     if (!grid.evaluation) {
                         return false;
                     }
-                    grid.estimated_time = estimated_time(
-                        *grid.evaluation, work.workpiece().machine, work.project().program, work.progress);
+                    grid.estimated_time = estimated_time(*grid.evaluation,
+                                                         work.cutting_setup().machine,
+                                                         work.project().program,
+                                                         work.progress);
                     return true;
                 },
             .clear = [method](Plan& plan) { plan.grid(method).estimated_time.reset(); }};
@@ -238,7 +240,7 @@ Stage unsequenced_stage(const project::Project& project, const Scope& scope) {
     return {.key = {StageKind::unsequenced},
             .share = 0.02,
             .asked = scope.unsequenced && project.sequencing != project::SequencingInput{},
-            .reads = {the_workpiece, key_of_path(project)},
+            .reads = {the_cutting_setup, key_of_path(project)},
             .same =
                 [](const Source& then, const Source& now) {
                     return then.project.program == now.project.program &&
@@ -265,7 +267,7 @@ Stage compared_cut_stage(GridMethod method, const Scope& scope) {
     return {.key = {StageKind::compared_cut, method},
             .share = 0.1,
             .asked = scope.compared_cuts,
-            .reads = {the_workpiece, grid_key(method)},
+            .reads = {the_cutting_setup, grid_key(method)},
             .same = same_tool_and_program,
             .make =
                 [method](const StageWork& work) {
@@ -289,7 +291,7 @@ Source source_of(const project::Project& project, const Folders& folders) {
     return {project, folders, written};
 }
 
-bool same_workpiece(const Source& then, const Source& now) {
+bool same_cutting_setup(const Source& then, const Source& now) {
     const project::Project &a = then.project, &b = now.project;
     return a.surface == b.surface && a.machine == b.machine && same_cutter(a.tool, b.tool) &&
            a.grid.direction == b.grid.direction && sequencing_settings(a) == sequencing_settings(b) &&
@@ -301,7 +303,7 @@ std::vector<Stage> stages_of(const project::Project& project, const Scope& scope
     const GridMethod of_program = program_grid(project);
     std::vector<Stage> stages{surface_stage(),
                               trims_stage(),
-                              workpiece_stage(),
+                              cutting_setup_stage(),
                               singular_points_stage(),
                               grid_stage(GridMethod::uniform, project, scope)};
     if (of_program != GridMethod::uniform) {

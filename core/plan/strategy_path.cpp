@@ -5,7 +5,7 @@
 #include "core/base/units.h"
 #include "core/plan/grids.h"
 #include "core/plan/internal/failure.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 
@@ -98,7 +98,7 @@ bool serves_better(const Evaluation& over, const Evaluation& even, const kinemat
 } // namespace
 
 Evaluation path_evaluation(const project::Project& project,
-                           const Workpiece& workpiece,
+                           const CuttingSetup& cutting_setup,
                            const Evaluation& base,
                            const Evaluation& uniform,
                            toolpath::MoveSampling sampling,
@@ -106,21 +106,22 @@ Evaluation path_evaluation(const project::Project& project,
     expects(has_own_path(project), "a zigzag over a grid is evaluated with its grid");
     const toolpath::StrategySettings settings = strategy_settings(project);
     if (!follows_nodes(project.toolpath.strategy) || keeps_grid(base, uniform)) {
-        return evaluate(workpiece, base.outcome, settings, sampling, progress);
+        return evaluate(cutting_setup, base.outcome, settings, sampling, progress);
     }
     std::optional<Evaluation> over, even;
     const auto over_failed = failure_of(
-        [&] { over = evaluate(workpiece, base.outcome, settings, sampling, progress.part(0.0, 0.5)); });
-    const auto even_failed = failure_of(
-        [&] { even = evaluate(workpiece, uniform.outcome, settings, sampling, progress.part(0.5, 1.0)); });
+        [&] { over = evaluate(cutting_setup, base.outcome, settings, sampling, progress.part(0.0, 0.5)); });
+    const auto even_failed = failure_of([&] {
+        even = evaluate(cutting_setup, uniform.outcome, settings, sampling, progress.part(0.5, 1.0));
+    });
     if (over_failed && even_failed) {
         throw Error(*over_failed);
     }
-    if (even_failed || (over && serves_better(*over, *even, workpiece.machine))) {
+    if (even_failed || (over && serves_better(*over, *even, cutting_setup.machine))) {
         return *std::move(over);
     }
-    even->outcome.status = grid::ImproverStatus::no_gain;
-    even->outcome.note = over ? kept_note(project, *over, *even, !workpiece.machine.rotary_axes().empty())
+    even->outcome.status = grid::OptimiserStatus::no_gain;
+    even->outcome.note = over ? kept_note(project, *over, *even, !cutting_setup.machine.rotary_axes().empty())
                               : not_made_note(project, *over_failed);
     return *std::move(even);
 }

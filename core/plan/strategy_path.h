@@ -33,7 +33,7 @@ inline constexpr std::string_view title_of_path = "Generating the path";
 /// across its tracks. Worse is what is_worse() says, or rounds farther apart by more than a tenth. Throws
 /// Error where the surface cannot be covered like this or a pose cannot be reached; Cancelled.
 [[nodiscard]] Evaluation path_evaluation(const project::Project& project,
-                                         const Workpiece& workpiece,
+                                         const CuttingSetup& cutting_setup,
                                          const Evaluation& base,
                                          const Evaluation& uniform,
                                          toolpath::MoveSampling sampling,

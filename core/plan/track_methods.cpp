@@ -42,13 +42,13 @@ grid::ChainSettings chain_settings(const project::GridInput& input) {
     return settings;
 }
 
-std::unique_ptr<grid::GridImprover> track_optimiser(GridStart from) {
+std::unique_ptr<grid::GridOptimiser> track_optimiser(GridStart from) {
     expect_straight_tracks(from.input.direction, from.start);
     return std::make_unique<grid::TrackOptimiser>(
         from.error, std::move(from.start), from.input.direction, track_settings(from.input, from.effort));
 }
 
-std::unique_ptr<grid::GridImprover> chain_optimiser(GridStart from) {
+std::unique_ptr<grid::GridOptimiser> chain_optimiser(GridStart from) {
     expect_straight_tracks(from.input.direction, from.start);
     return std::make_unique<grid::ChainOptimiser>(
         from.error, std::move(from.start), from.input.direction, chain_settings(from.input));
@@ -65,7 +65,7 @@ const GridMethodRow tracks_row{
     .follows_drag = true,
     .same_settings = [](const project::GridInput& a,
                         const project::GridInput& b) { return a.tracks == b.tracks; },
-    .improver = track_optimiser};
+    .optimiser = track_optimiser};
 
 const GridMethodRow chain_row{
     .method = project::GridMethod::chain,
@@ -75,6 +75,6 @@ const GridMethodRow chain_row{
     .share = 3.0,
     .same_settings = [](const project::GridInput& a,
                         const project::GridInput& b) { return a.tracks == b.tracks && a.chain == b.chain; },
-    .improver = chain_optimiser};
+    .optimiser = chain_optimiser};
 
 } // namespace millwright::plan

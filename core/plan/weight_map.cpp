@@ -14,28 +14,30 @@ namespace {
 constexpr int raster = 97; // points a side: finer than the eye asks of a smooth field
 
 /// As solvers of the elliptic grid begin with it, but for the region.
-grid::WeightPtr
-weight_at_start(const project::GridInput& input, const Workpiece& workpiece, const Progress& progress) {
+grid::WeightPtr weight_at_start(const project::GridInput& input,
+                                const CuttingSetup& cutting_setup,
+                                const Progress& progress) {
     if (!needs_error(input.elliptic)) {
-        return chosen_weight(input, workpiece.patch, nullptr);
+        return chosen_weight(input, cutting_setup.patch, nullptr);
     }
     const grid::EllipticAdaptationSettings settings{.direction = input.direction};
     const grid::Grid uniform = grid::Grid::uniform(input.nu, input.nv);
     const std::vector<grid::MoveError> moves =
-        grid::measure(workpiece.error_model(), uniform, input.direction, settings.sampling, progress);
+        grid::measure(cutting_setup.error_model(), uniform, input.direction, settings.sampling, progress);
     std::vector<double> density = grid::error_density(uniform, input.direction, moves);
     if (input.elliptic.weight != project::WeightSource::error) {
-        return chosen_weight(input, workpiece.patch, grid::weight_on(uniform, density));
+        return chosen_weight(input, cutting_setup.patch, grid::weight_on(uniform, density));
     }
     return grid::weight_on(
         uniform, grid::scaled_weight(std::move(density), input.nu, input.nv, settings.error_weight));
 }
 
 /// The same where it counts.
-grid::WeightPtr
-weight_in_region(const project::GridInput& input, const Workpiece& workpiece, const Progress& progress) {
-    grid::WeightPtr weight = weight_at_start(input, workpiece, progress);
-    const grid::WeightPtr share = region_weight(input, workpiece.patch);
+grid::WeightPtr weight_in_region(const project::GridInput& input,
+                                 const CuttingSetup& cutting_setup,
+                                 const Progress& progress) {
+    grid::WeightPtr weight = weight_at_start(input, cutting_setup, progress);
+    const grid::WeightPtr share = region_weight(input, cutting_setup.patch);
     if (share == nullptr) {
         return weight;
     }
@@ -64,8 +66,9 @@ WeightMap sampled(const grid::Weight& weight, const project::GridInput& input, i
 
 } // namespace
 
-WeightMap weight_map(const project::GridInput& input, const Workpiece& workpiece, const Progress& progress) {
-    const grid::WeightPtr weight = weight_in_region(input, workpiece, progress);
+WeightMap
+weight_map(const project::GridInput& input, const CuttingSetup& cutting_setup, const Progress& progress) {
+    const grid::WeightPtr weight = weight_in_region(input, cutting_setup, progress);
     try {
         return sampled(*weight, input, raster, raster);
     } catch (const Error&) { // such as 1 / abs(u - 1/3): the grid may have no node there

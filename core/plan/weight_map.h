@@ -28,6 +28,6 @@ struct WeightMap {
 /// density of the uniform grid. A formula that has no finite value somewhere between the nodes is shown at
 /// the nodes alone. Throws Error if it has none at a node, or no sense; Cancelled.
 [[nodiscard]] WeightMap
-weight_map(const project::GridInput& input, const Workpiece& workpiece, const Progress& progress);
+weight_map(const project::GridInput& input, const CuttingSetup& cutting_setup, const Progress& progress);
 
 } // namespace millwright::plan

@@ -48,9 +48,9 @@ struct DecodeSettings {
     friend bool operator==(const DecodeSettings&, const DecodeSettings&) = default;
 };
 
-/// The points from `start` (pen up) on, one a period. The end of each segment (mode segments) or stroke (mode
-/// path) is exactly hit. Without strokes and `end` there is `start` alone. Throws Error for a speed, period
-/// or height that is none, and for more points than are allowed.
+/// The points from `start` (pen up) on, one per period. The end of each segment (mode segments) or stroke
+/// (mode path) is exactly hit. Without strokes and `end` there is `start` alone. Throws Error for a speed,
+/// period or height that is none, and for more points than are allowed.
 [[nodiscard]] std::vector<Vec3>
 decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start = Vec2::Zero());
 

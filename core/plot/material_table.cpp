@@ -14,7 +14,7 @@ namespace millwright::plot {
 
 namespace {
 
-constexpr double mm_an_inch = 25.4;
+constexpr double mm_per_inch = 25.4;
 constexpr double minute = 60.0;
 constexpr double edges = 2.0;
 constexpr double plunge_part = 1.0 / 3.0; // of the feed
@@ -102,12 +102,12 @@ private:
         const auto loads = value.at("chip_load_in").items(diameters.size());
         double last = 0.0;
         for (std::size_t n = 0; n < loads.size(); ++n) {
-            const double diameter = diameters[n].number(0.0, 10.0) * mm_an_inch;
+            const double diameter = diameters[n].number(0.0, 10.0) * mm_per_inch;
             if (!(diameter > last)) {
                 diameters[n].fail("the diameters must increase");
             }
             last = diameter;
-            material.chip_loads_.push_back({diameter, loads[n].number(1e-6, 1.0) * mm_an_inch});
+            material.chip_loads_.push_back({diameter, loads[n].number(1e-6, 1.0) * mm_per_inch});
         }
         return material;
     }

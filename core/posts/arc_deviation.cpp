@@ -79,12 +79,13 @@ double chord_deviation(const Arc& arc, const Vec3& a, const Vec3& b, double s, d
 
 } // namespace
 
-double arc_deviation(const program::Program& program, const Wording& wording, const FittedArc& arc) {
+double
+arc_deviation(const program::Program& program, const ProgramWords& program_words, const FittedArc& arc) {
     constexpr double never = std::numeric_limits<double>::infinity();
     const PlaneAxes axes = plane_axes(program.axes, arc.plane);
-    std::vector<Vec3> points{point_of(axes, wording.blocks[static_cast<std::size_t>(arc.first)].from)};
+    std::vector<Vec3> points{point_of(axes, program_words.blocks[static_cast<std::size_t>(arc.first)].from)};
     for (int n = arc.first; n <= arc.last; ++n) {
-        points.push_back(point_of(axes, wording.blocks[static_cast<std::size_t>(n)].to));
+        points.push_back(point_of(axes, program_words.blocks[static_cast<std::size_t>(n)].to));
     }
     const Arc circle(arc.centre, arc.sweep, points.front(), points.back());
     double largest = 0.0;

@@ -1,7 +1,7 @@
 // How far an arc is from the straight moves that it stands for.
 #pragma once
 
-#include "core/posts/wording.h"
+#include "core/posts/program_words.h"
 #include "core/program/program.h"
 
 namespace millwright::posts {
@@ -10,6 +10,6 @@ namespace millwright::posts {
 /// the first move's begin to the last one's end, radius and third axis changing linearly with the angle. mm;
 /// infinite where the moves turn back, or where the arc ends at another angle than they do.
 [[nodiscard]] double
-arc_deviation(const program::Program& program, const Wording& wording, const FittedArc& arc);
+arc_deviation(const program::Program& program, const ProgramWords& program_words, const FittedArc& arc);
 
 } // namespace millwright::posts

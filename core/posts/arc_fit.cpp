@@ -26,10 +26,10 @@ constexpr double same_speed = 1e-3;                             // relative: dur
 class Fitter {
 public:
     Fitter(const program::Program& program,
-           const Wording& wording,
+           const ProgramWords& program_words,
            const PostFormat& format,
            double tolerance)
-        : program_(program), wording_(wording), format_(format), tolerance_(tolerance) {
+        : program_(program), program_words_(program_words), format_(format), tolerance_(tolerance) {
         const ArcFormat& arcs = *format.arcs;
         for (const auto& [plane, allowed] : {std::pair{gcode::Plane::xy, arcs.xy},
                                              std::pair{gcode::Plane::xz, arcs.zx},
@@ -57,7 +57,7 @@ public:
 
 private:
     const program::Program& program_;
-    const Wording& wording_;
+    const ProgramWords& program_words_;
     const PostFormat& format_;
     double tolerance_;
     std::vector<gcode::Plane> planes_;
@@ -66,7 +66,7 @@ private:
         return program_.blocks[static_cast<std::size_t>(n)];
     }
     [[nodiscard]] const BlockWords& words(int n) const {
-        return wording_.blocks[static_cast<std::size_t>(n)];
+        return program_words_.blocks[static_cast<std::size_t>(n)];
     }
 
     [[nodiscard]] double speed(int n) const {
@@ -156,7 +156,7 @@ private:
             arc.sweep += std::atan2(arm.x() * next.y() - arm.y() * next.x(), arm.dot(next));
             arm = next;
         }
-        if (!sound(arc) || !(arc_deviation(program_, wording_, arc) <= tolerance_)) {
+        if (!sound(arc) || !(arc_deviation(program_, program_words_, arc) <= tolerance_)) {
             return std::nullopt;
         }
         return arc;
@@ -210,7 +210,7 @@ private:
 } // namespace
 
 std::vector<FittedArc> fit_arcs(const program::Program& program,
-                                const Wording& wording,
+                                const ProgramWords& program_words,
                                 const PostFormat& format,
                                 double tolerance) {
     expects(tolerance > 0.0, "the tolerance of arcs is positive");
@@ -218,7 +218,7 @@ std::vector<FittedArc> fit_arcs(const program::Program& program,
         throw Error(
             fmt::format("programs for {} cannot contain arcs", format.name), {}, "omit the arc tolerance");
     }
-    return Fitter(program, wording, format, tolerance).fit();
+    return Fitter(program, program_words, format, tolerance).fit();
 }
 
 } // namespace millwright::posts

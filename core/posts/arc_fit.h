@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/posts/post_format.h"
-#include "core/posts/wording.h"
+#include "core/posts/program_words.h"
 #include "core/program/program.h"
 
 #include <vector>
@@ -15,7 +15,9 @@ namespace millwright::posts {
 /// anything between the feeds; none has a radius over 1 m, a sweep below 1 degree or of a whole turn. The
 /// longest arc is taken first from the begin of each run. Throws Error if the control is written without
 /// arcs.
-[[nodiscard]] std::vector<FittedArc>
-fit_arcs(const program::Program& program, const Wording& wording, const PostFormat& format, double tolerance);
+[[nodiscard]] std::vector<FittedArc> fit_arcs(const program::Program& program,
+                                              const ProgramWords& program_words,
+                                              const PostFormat& format,
+                                              double tolerance);
 
 } // namespace millwright::posts

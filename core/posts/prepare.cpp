@@ -68,7 +68,7 @@ public:
         result_.program.tool = program.tool;
         result_.program.cutters = program.cutters;
         result_.program.blocks.reserve(program.blocks.size());
-        result_.wording.blocks.reserve(program.blocks.size());
+        result_.program_words.blocks.reserve(program.blocks.size());
         meant_ = program.start;
     }
 
@@ -167,12 +167,12 @@ private:
 
     /// Inverse time is rounded down to what is written, or up to the smallest that can be.
     void keep_to_digits(program::Block& block) const {
-        constexpr double seconds_a_minute = 60.0;
+        constexpr double seconds_per_minute = 60.0;
         constexpr double same = 1e-6; // of a digit: it was rounded before
-        const double digits = seconds_a_minute / block.duration / format_.numbers.feed.digit();
+        const double digits = seconds_per_minute / block.duration / format_.numbers.feed.digit();
         const double steps = std::max(1.0, std::floor(digits + same));
         if (std::abs(digits - steps) > same) {
-            block.duration = seconds_a_minute / (steps * format_.numbers.feed.digit());
+            block.duration = seconds_per_minute / (steps * format_.numbers.feed.digit());
         }
     }
 
@@ -181,9 +181,9 @@ private:
     /// with the next move.
     void keep_time_of_turn(program::Block& block) const {
         constexpr double next_to_nothing = 2e-3; // mm
-        constexpr double seconds_a_minute = 60.0;
+        constexpr double seconds_per_minute = 60.0;
         const FeedWay way = feed_way(result_.program.axes, here(), block.target);
-        const double a_minute = way.length / format_.length_unit() / block.duration * seconds_a_minute;
+        const double a_minute = way.length / format_.length_unit() / block.duration * seconds_per_minute;
         if (format_.positions != PositionsOf::axes || way.angular || way.length > next_to_nothing ||
             !(a_minute < gcode::least_inverse_time_feed)) {
             return;
@@ -244,13 +244,13 @@ private:
     void append(program::Block block, bool tip) {
         const AxisPositions from = here();
         const AxisPositions& to = block.target;
-        result_.wording.blocks.push_back(tip ? BlockWords{words(from), words(to), true}
-                                         : format_.positions == PositionsOf::tip
-                                             ? BlockWords{from, to, false}
-                                             // machine positions, whatever the tool
-                                             : BlockWords{program::programmed(result_.program, from),
-                                                          program::programmed(result_.program, to),
-                                                          false});
+        result_.program_words.blocks.push_back(tip ? BlockWords{words(from), words(to), true}
+                                               : format_.positions == PositionsOf::tip
+                                                   ? BlockWords{from, to, false}
+                                                   // machine positions, whatever the tool
+                                                   : BlockWords{program::programmed(result_.program, from),
+                                                                program::programmed(result_.program, to),
+                                                                false});
         result_.program.blocks.push_back(std::move(block));
     }
 

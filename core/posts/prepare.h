@@ -4,14 +4,14 @@
 
 #include "core/kinematics/machine_model.h"
 #include "core/posts/post_format.h"
-#include "core/posts/wording.h"
+#include "core/posts/program_words.h"
 #include "core/program/program.h"
 
 namespace millwright::posts {
 
 struct PreparedProgram {
     program::Program program; ///< what the text says: simulate, plan and check this one
-    Wording wording;
+    ProgramWords program_words;
     /// By how much the tip, which goes straight under tip control, leaves the way that straight axes would
     /// take, over all feeds; mm. 0 where the text has axis positions.
     double tip_deviation = 0.0;

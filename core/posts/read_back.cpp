@@ -98,11 +98,12 @@ gcode::StepKind step_of(program::BlockKind kind) {
 class Comparison {
 public:
     Comparison(const program::Program& program,
-               const Wording& wording,
+               const ProgramWords& program_words,
                const PostFormat& format,
                double arc_tolerance,
                const std::filesystem::path& file)
-        : program_(program), wording_(wording), format_(format), arc_tolerance_(arc_tolerance), file_(file) {
+        : program_(program), program_words_(program_words), format_(format), arc_tolerance_(arc_tolerance),
+          file_(file) {
         if (format.positions == PositionsOf::tip) {
             work_offset_ = strange_work_offset();
         }
@@ -117,10 +118,10 @@ public:
     void compare(const program::Listing& listing) {
         steps_ = read(listing);
         compare_tool();
-        auto arc = wording_.arcs.begin();
+        auto arc = program_words_.arcs.begin();
         for (block_ = 0; block_ < program_.block_count(); ++block_) {
             const program::Block& block = program_.blocks[static_cast<std::size_t>(block_)];
-            if (arc != wording_.arcs.end() && arc->first == block_) {
+            if (arc != program_words_.arcs.end() && arc->first == block_) {
                 compare_arc(*arc);
                 block_ = arc++->last;
             } else if (block.kind != program::BlockKind::comment) {
@@ -135,7 +136,7 @@ public:
 
 private:
     const program::Program& program_;
-    const Wording& wording_;
+    const ProgramWords& program_words_;
     const PostFormat& format_;
     double arc_tolerance_;
     const std::filesystem::path& file_;
@@ -283,7 +284,7 @@ private:
     }
 
     void compare_move(const program::Block& block, const gcode::WrittenStep& step) {
-        const BlockWords& words = wording_.blocks[static_cast<std::size_t>(block_)];
+        const BlockWords& words = program_words_.blocks[static_cast<std::size_t>(block_)];
         if (step.tip != words.tip) {
             differ(step.tip ? "tip control is on" : "tip control is off");
         }
@@ -337,14 +338,14 @@ private:
         double duration = 0.0;
 
         [[nodiscard]] double feed(bool inverse) const {
-            constexpr double seconds_a_minute = 60.0;
-            return (inverse ? 1.0 : length) / duration * seconds_a_minute;
+            constexpr double seconds_per_minute = 60.0;
+            return (inverse ? 1.0 : length) / duration * seconds_per_minute;
         }
     };
 
     /// Of a feed from anywhere: by its length from where the text was taken to begin.
     void compare_speed(const program::Block& block, const gcode::WrittenStep& step) const {
-        constexpr double seconds_a_minute = 60.0;
+        constexpr double seconds_per_minute = 60.0;
         const auto positions = [&](const gcode::AxisValues& values) {
             AxisPositions found(static_cast<Eigen::Index>(program_.axes.size()));
             for (std::size_t n = 0; n < program_.axes.size(); ++n) {
@@ -356,7 +357,7 @@ private:
         };
         const FeedWay way = feed_way(program_.axes, positions(at_), positions(step.target));
         const auto shown = [&](double speed) {
-            return (way.angular ? to_degrees(speed) : speed / format_.length_unit()) * seconds_a_minute;
+            return (way.angular ? to_degrees(speed) : speed / format_.length_unit()) * seconds_per_minute;
         };
         const double meant = shown(*block.programmed_speed);
         const double read = shown(way.length / step.value);
@@ -384,8 +385,8 @@ private:
 
     void compare_arc(const FittedArc& arc) {
         const gcode::WrittenStep& step = next(gcode::StepKind::arc);
-        const BlockWords& begin = wording_.blocks[static_cast<std::size_t>(arc.first)];
-        const BlockWords& end = wording_.blocks[static_cast<std::size_t>(arc.last)];
+        const BlockWords& begin = program_words_.blocks[static_cast<std::size_t>(arc.first)];
+        const BlockWords& end = program_words_.blocks[static_cast<std::size_t>(arc.last)];
         compare_positions(end, axes_named(program_, arc), step.target);
         if (step.plane != arc.plane || (step.sweep > 0.0) != (arc.sweep > 0.0)) {
             differ("the arc turns in the wrong direction");
@@ -398,7 +399,7 @@ private:
             compare_value("the centre's second coordinate", centre.y(), arc.centre.y(), within);
         }
         const FittedArc read{arc.first, arc.last, step.plane, centre, radius_of(step), step.sweep};
-        const double deviation = arc_deviation(program_, wording_, read);
+        const double deviation = arc_deviation(program_, program_words_, read);
         const double within = arc_tolerance_ + half_of(format_.numbers.length) * format_.length_unit();
         if (!(deviation <= within)) {
             differ(fmt::format(
@@ -432,7 +433,7 @@ private:
         }
         const int third = plane_axes(program_.axes, arc.plane).third;
         const double rise = third < 0 ? 0.0 : end.to[third] - begin.from[third];
-        const double meant = length_of_feeds(program_, wording_, arc) / format_.length_unit();
+        const double meant = length_of_feeds(program_, program_words_, arc) / format_.length_unit();
         const double way = std::hypot(read.radius * read.sweep, rise) / format_.length_unit();
         compare_feed({way, step.value}, {meant, duration});
     }
@@ -442,11 +443,11 @@ private:
 
 void check_read_back(const program::Listing& listing,
                      const program::Program& program,
-                     const Wording& wording,
+                     const ProgramWords& program_words,
                      const PostFormat& format,
                      double arc_tolerance,
                      const std::filesystem::path& file) {
-    Comparison(program, wording, format, arc_tolerance, file).compare(listing);
+    Comparison(program, program_words, format, arc_tolerance, file).compare(listing);
 }
 
 } // namespace millwright::posts

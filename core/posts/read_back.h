@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/posts/post_format.h"
-#include "core/posts/wording.h"
+#include "core/posts/program_words.h"
 #include "core/posts/writer.h"
 #include "core/program/program.h"
 
@@ -15,7 +15,7 @@ namespace millwright::posts {
 /// naming `file`, line and block where the text says something else, or what its control would refuse.
 void check_read_back(const program::Listing& listing,
                      const program::Program& program,
-                     const Wording& wording,
+                     const ProgramWords& program_words,
                      const PostFormat& format,
                      double arc_tolerance,
                      const std::filesystem::path& file);

@@ -35,14 +35,16 @@ ReleasedText release(const program::Program& program,
     PreparedProgram ready = prepare(program, machine, format, settings.tip_tolerance);
     set_path_mode(ready.program, format, settings.text.path_tolerance);
     if (settings.arc_tolerance > 0.0) {
-        ready.wording.arcs = fit_arcs(ready.program, ready.wording, format, settings.arc_tolerance);
+        ready.program_words.arcs =
+            fit_arcs(ready.program, ready.program_words, format, settings.arc_tolerance);
     }
-    program::Listing listing = write_text(ready.program, ready.wording, format, settings.text);
-    check_read_back(listing, ready.program, ready.wording, format, settings.arc_tolerance, settings.file);
+    program::Listing listing = write_text(ready.program, ready.program_words, format, settings.text);
+    check_read_back(
+        listing, ready.program, ready.program_words, format, settings.arc_tolerance, settings.file);
     return {std::move(ready.program),
             std::move(listing),
             ready.tip_deviation,
-            static_cast<int>(ready.wording.arcs.size())};
+            static_cast<int>(ready.program_words.arcs.size())};
 }
 
 } // namespace millwright::posts

@@ -32,13 +32,13 @@ std::string filled(std::string pattern, std::string_view word, std::string_view 
 class Writer {
 public:
     Writer(const program::Program& program,
-           const Wording& wording,
+           const ProgramWords& program_words,
            const PostFormat& format,
            const TextSettings& settings)
-        : program_(program), wording_(wording), format_(format), settings_(settings),
+        : program_(program), program_words_(program_words), format_(format), settings_(settings),
           words_(program.axes.size()), feed_code_(format.feed.first_code),
           number_(format.line_numbers.first - format.line_numbers.step) {
-        expects(wording.blocks.size() == program.blocks.size(), "a wording belongs to its program");
+        expects(program_words.blocks.size() == program.blocks.size(), "a wording belongs to its program");
     }
 
     program::Listing take() {
@@ -49,9 +49,9 @@ public:
         for (const program::ProgramCutter& cutter : program_.cutters) {
             comment(program::cutter_comment(cutter, format_.length_unit()));
         }
-        auto arc = wording_.arcs.begin();
+        auto arc = program_words_.arcs.begin();
         for (block_ = 0; block_ < program_.block_count(); ++block_) {
-            const bool begins_arc = arc != wording_.arcs.end() && arc->first == block_;
+            const bool begins_arc = arc != program_words_.arcs.end() && arc->first == block_;
             const int last = begins_arc ? arc->last : block_;
             begin(last);
             if (begins_arc) {
@@ -68,7 +68,7 @@ public:
 
 private:
     const program::Program& program_;
-    const Wording& wording_;
+    const ProgramWords& program_words_;
     const PostFormat& format_;
     const TextSettings& settings_;
     program::Listing listing_;
@@ -83,7 +83,7 @@ private:
     int block_ = 0;
 
     [[nodiscard]] const BlockWords& words(int block) const {
-        return wording_.blocks[static_cast<std::size_t>(block)];
+        return program_words_.blocks[static_cast<std::size_t>(block)];
     }
 
     [[noreturn]] void refuse(std::string_view what) const {
@@ -296,7 +296,7 @@ private:
         for (int n = arc.first; n <= arc.last; ++n) {
             duration += program_.blocks[static_cast<std::size_t>(n)].duration;
         }
-        append_feed(text, {length_of_feeds(program_, wording_, arc), false}, duration);
+        append_feed(text, {length_of_feeds(program_, program_words_, arc), false}, duration);
         return joined(text);
     }
 
@@ -377,8 +377,8 @@ private:
     }
 
     void append_speed(std::vector<std::string>& text, const program::Block& block) {
-        append_feed_word(text,
-                         speed_a_minute(*block.programmed_speed, !names_linear(program_.axes, block.named)));
+        append_feed_word(
+            text, speed_per_minute(*block.programmed_speed, !names_linear(program_.axes, block.named)));
     }
 
     void append_feed_word(std::vector<std::string>& text, double feed) {
@@ -392,22 +392,22 @@ private:
     /// In inverse time rounded down, so that rounding never makes a move faster; mm per minute to the
     /// nearest, as people write them.
     [[nodiscard]] double feed_of(const FeedWay& way, double duration) const {
-        constexpr double seconds_a_minute = 60.0;
+        constexpr double seconds_per_minute = 60.0;
         constexpr double rounding = 1e-6; // of a digit: of a duration that was rounded to be written
         const program::NumberFormat& number = format_.numbers.feed;
-        const double moves_a_minute = seconds_a_minute / duration;
+        const double moves_per_minute = seconds_per_minute / duration;
         if (format_.feed.mode == FeedWriting::inverse_time) {
-            const double steps = std::floor(moves_a_minute / number.digit() + rounding);
+            const double steps = std::floor(moves_per_minute / number.digit() + rounding);
             return std::max(1.0, steps) * number.digit();
         }
-        return speed_a_minute(way.length / duration, way.angular);
+        return speed_per_minute(way.length / duration, way.angular);
     }
 
     /// Of mm/s or rad/s, as it is written.
-    [[nodiscard]] double speed_a_minute(double speed, bool angular) const {
-        constexpr double seconds_a_minute = 60.0;
+    [[nodiscard]] double speed_per_minute(double speed, bool angular) const {
+        constexpr double seconds_per_minute = 60.0;
         const double a_second = angular ? to_degrees(speed) : speed / format_.length_unit();
-        const double feed = format_.numbers.feed.rounded(a_second * seconds_a_minute);
+        const double feed = format_.numbers.feed.rounded(a_second * seconds_per_minute);
         if (!(feed > 0.0)) {
             refuse(fmt::format("its feed rate, {} per minute, is too small to be written",
                                angular          ? "degrees"
@@ -439,10 +439,10 @@ std::string text_name(std::string_view name) {
 }
 
 program::Listing write_text(const program::Program& program,
-                            const Wording& wording,
+                            const ProgramWords& program_words,
                             const PostFormat& format,
                             const TextSettings& settings) {
-    return Writer(program, wording, format, settings).take();
+    return Writer(program, program_words, format, settings).take();
 }
 
 program::Listing write_gcode(const program::Program& program, const program::ProgramSettings& settings) {
@@ -450,7 +450,7 @@ program::Listing write_gcode(const program::Program& program, const program::Pro
     format.numbers.length.decimals = settings.length_decimals;
     format.numbers.angle.decimals = settings.angle_decimals;
     return write_text(program,
-                      axis_wording(program),
+                      axis_program_words(program),
                       format,
                       {.line_numbers = settings.line_numbers, .path_tolerance = settings.path_tolerance});
 }

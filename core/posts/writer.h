@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/posts/post_format.h"
-#include "core/posts/wording.h"
+#include "core/posts/program_words.h"
 #include "core/program/listing.h"
 #include "core/program/program.h"
 #include "core/program/program_settings.h"
@@ -27,7 +27,7 @@ struct TextSettings {
 /// Throws Error naming the block that the control has no words for, or whose line would be too long. Throws
 /// Defect if a target is not finite.
 [[nodiscard]] program::Listing write_text(const program::Program& program,
-                                          const Wording& wording,
+                                          const ProgramWords& program_words,
                                           const PostFormat& format,
                                           const TextSettings& settings);
 

@@ -81,10 +81,10 @@ bool inside_limits(const MachineModel& machine, const AxisPositions& positions) 
 }
 
 double written_duration(double duration) {
-    constexpr double seconds_a_minute = 60.0;
+    constexpr double seconds_per_minute = 60.0;
     const double scale = std::pow(10.0, feed_decimals);
-    const double steps = std::max(1.0, std::floor(seconds_a_minute / duration * scale));
-    return seconds_a_minute / (steps / scale);
+    const double steps = std::max(1.0, std::floor(seconds_per_minute / duration * scale));
+    return seconds_per_minute / (steps / scale);
 }
 
 } // namespace millwright::program

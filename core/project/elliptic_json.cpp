@@ -1,7 +1,7 @@
 #include "core/project/internal/elliptic_json.h"
 
 #include "core/project/internal/region_area.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 namespace millwright::project {
 

@@ -1,5 +1,5 @@
 // What the numbers and choices of the grids say of themselves.
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <array>
 
@@ -18,7 +18,7 @@ constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
      "",
      "Number of grid nodes along u, including the boundary",
      2,
-     most_nodes_a_side,
+     most_nodes_per_side,
      0,
      field<&GridInput::nu>},
     {"nv",
@@ -26,7 +26,7 @@ constexpr std::array<NumberSetting<GridInput>, 2> of_grid{{
      "",
      "Number of grid nodes along v, including the boundary",
      2,
-     most_nodes_a_side,
+     most_nodes_per_side,
      0,
      field<&GridInput::nv>},
 }};

@@ -6,7 +6,7 @@
 #include "core/exchange/point_rows.h"
 #include "core/project/internal/imported_points.h"
 #include "core/project/internal/part_size.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 

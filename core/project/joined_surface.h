@@ -18,7 +18,7 @@ struct OpenSeam {
 struct JoinedSurface {
     SurfaceInput surface;
     std::vector<geometry::Seam> seams;
-    std::vector<geometry::SeamFigures> before, after; ///< one a seam
+    std::vector<geometry::SeamFigures> before, after; ///< one per seam
     std::vector<OpenSeam> open;                       ///< before joining, nearest first
     double largest_move = 0.0;                        ///< of a control point, mm
     double rms_move = 0.0;

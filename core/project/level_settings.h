@@ -1,8 +1,8 @@
-// What the numbers of one pen's level say about themselves (settings.h).
+// What the numbers of one pen's level say about themselves (setting_tables.h).
 #pragma once
 
 #include "core/plot/cut_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 namespace millwright::project {
 

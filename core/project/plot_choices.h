@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/project/plot_input.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 namespace millwright::project {
 

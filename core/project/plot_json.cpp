@@ -44,7 +44,7 @@ std::vector<plot::Level> levels_of(const JsonValue& value) {
     return levels;
 }
 
-void read_hpgl(const JsonValue& from, plot::ReaderSettings& to) {
+void read_hpgl(const JsonValue& from, plot::HpglSettings& to) {
     read_choice(from, "fill", fill_modes(), to.fill);
     read_choice(from, "line_ends", line_ends(), to.line_ends);
     read_flag(from, "dashes", to.dashes);
@@ -53,7 +53,7 @@ void read_hpgl(const JsonValue& from, plot::ReaderSettings& to) {
     to.strictness = strict ? plot::Strictness::strict : plot::Strictness::tolerant;
 }
 
-void add_hpgl(Json& json, const plot::ReaderSettings& hpgl) {
+void add_hpgl(Json& json, const plot::HpglSettings& hpgl) {
     json["fill"] = row_of(fill_modes(), hpgl.fill).id;
     json["line_ends"] = row_of(line_ends(), hpgl.line_ends).id;
     json["dashes"] = hpgl.dashes;

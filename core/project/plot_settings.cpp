@@ -12,11 +12,11 @@ using internal::As;
 using internal::count;
 using internal::maybe;
 using internal::number;
+using plot::HpglSettings;
 using plot::PictureSettings;
 using plot::PictureSize;
 using plot::PixelRegion;
 using plot::PlotterUnit;
-using plot::ReaderSettings;
 using plot::StrokePlan;
 using plot::Tabs;
 using plot::ToolTip;
@@ -67,7 +67,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 52> of_plot{{
      0.001,
      1.0,
      5,
-     number<As::it_is, hpgl, &ReaderSettings::unit, &PlotterUnit::x>},
+     number<As::it_is, hpgl, &HpglSettings::unit, &PlotterUnit::x>},
     {"unit_y_mm",
      "Plotter unit Y",
      "mm",
@@ -75,7 +75,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 52> of_plot{{
      0.001,
      1.0,
      5,
-     number<As::it_is, hpgl, &ReaderSettings::unit, &PlotterUnit::y>},
+     number<As::it_is, hpgl, &HpglSettings::unit, &PlotterUnit::y>},
     {"arc_tolerance_mm",
      "Arc tolerance",
      "mm",
@@ -83,7 +83,7 @@ constexpr std::array<NumberSetting<PlotSettings>, 52> of_plot{{
      0.0,
      10.0,
      4,
-     maybe<hpgl, &ReaderSettings::arc_tolerance>},
+     maybe<hpgl, &HpglSettings::arc_tolerance>},
     {"width_mm",
      "Width",
      "mm",

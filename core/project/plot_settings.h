@@ -1,8 +1,8 @@
-// What the numbers of a plot say about themselves, in the units that people see (settings.h).
+// What the numbers of a plot say about themselves, in the units that people see (setting_tables.h).
 #pragma once
 
 #include "core/project/plot_input.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 namespace millwright::project {
 

@@ -6,7 +6,7 @@
 #include "core/project/internal/region_area.h"
 #include "core/project/level_settings.h"
 #include "core/project/plot_settings.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/taught_points.h"
 #include "core/project/tool_settings.h"
 

@@ -36,7 +36,7 @@ struct FaceInput {
 struct SurfaceInput {
     std::string preset;                        ///< id of the preset it started from; empty if none
     std::vector<geometry::ControlNet> patches; ///< at least one, or none if there is a face
-    std::vector<geometry::Trim> trims;         ///< one a patch; those that are missing: all of the patch
+    std::vector<geometry::Trim> trims;         ///< one per patch; those that are missing: all of the patch
     int machined_patch = 0;                    ///< index of the patch that the tool path covers
     bool flipped = false;                      ///< cut on the side against S_u x S_v
 

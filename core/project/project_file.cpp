@@ -11,7 +11,7 @@
 #include "core/project/internal/plot_json.h"
 #include "core/project/internal/setting_json.h"
 #include "core/project/json_text.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_json.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
-// What the numbers of a tool say about themselves (settings.h), and the tool that they describe.
+// What the numbers of a tool say about themselves (setting_tables.h), and the tool that they describe.
 #pragma once
 
 #include "core/kinematics/machine_model.h"
 #include "core/program/program.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/tool.h"
 

@@ -119,8 +119,8 @@ private:
 
     void look(const std::vector<int>& moves) {
         std::vector<std::vector<PairEvent>> events(moves.size());
-        constexpr std::ptrdiff_t moves_a_chunk = 32;
-        parallel_for(std::ssize(moves), moves_a_chunk, [&](std::ptrdiff_t n) {
+        constexpr std::ptrdiff_t moves_per_chunk = 32;
+        parallel_for(std::ssize(moves), moves_per_chunk, [&](std::ptrdiff_t n) {
             progress_.check();
             const int block = moves[static_cast<std::size_t>(n)];
             if (const Setup* setup = setup_at(block)) {

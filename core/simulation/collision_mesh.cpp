@@ -14,7 +14,7 @@ namespace millwright::simulation {
 
 namespace {
 
-constexpr std::int32_t triangles_a_leaf = 4;
+constexpr std::int32_t triangles_per_leaf = 4;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// The distance of a point to a body of revolution and its gradient.
@@ -188,7 +188,7 @@ void CollisionMesh::build(std::int32_t first, std::int32_t count) {
     node.half = 0.5 * box.sizes();
     node.radius = node.half.norm();
     nodes_.push_back(node);
-    if (count <= triangles_a_leaf) {
+    if (count <= triangles_per_leaf) {
         nodes_[at].next = first;
         nodes_[at].count = count;
         return;

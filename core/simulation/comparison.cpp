@@ -274,15 +274,15 @@ std::vector<Deviation> deviations(const SimulationInput& input,
                                   const Progress& progress) {
     std::vector<Deviation> result(points.size());
     const BlockIndex index(input, found.first_block);
-    constexpr std::ptrdiff_t points_a_chunk = 16, points_a_report = 1024;
+    constexpr std::ptrdiff_t points_per_chunk = 16, points_per_report = 1024;
     const std::ptrdiff_t count = std::ssize(result);
-    for (std::ptrdiff_t first = 0; first < count; first += points_a_report) {
-        parallel_for(std::min(points_a_report, count - first), points_a_chunk, [&](std::ptrdiff_t n) {
+    for (std::ptrdiff_t first = 0; first < count; first += points_per_report) {
+        parallel_for(std::min(points_per_report, count - first), points_per_chunk, [&](std::ptrdiff_t n) {
             progress.check();
             const auto at = static_cast<std::size_t>(first + n);
             result[at] = deviation_at(input, *found.field, index, points[at]);
         });
-        progress.report(static_cast<double>(std::min(first + points_a_report, count)) /
+        progress.report(static_cast<double>(std::min(first + points_per_report, count)) /
                         static_cast<double>(count));
     }
     return result;

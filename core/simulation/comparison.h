@@ -27,7 +27,7 @@ struct Deviation {
     bool at_least = false; ///< all material around was removed: the gouge may be deeper than the stock was
 };
 
-/// One a point. Where no move comes near, the height is that of the stock along the normal; a point outside
+/// One per point. Where no move comes near, the height is that of the stock along the normal; a point outside
 /// of it has its distance to it, below 0. A point without material within a cell of the field is a gouge, at
 /// least as deep as the next material is far. `found` is what simulate() gave for `input`. Throws Cancelled.
 [[nodiscard]] std::vector<Deviation> deviations(const SimulationInput& input,

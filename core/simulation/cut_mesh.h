@@ -18,7 +18,7 @@ namespace millwright::simulation {
 struct CutMesh {
     std::vector<Vec3> points;
     std::vector<std::array<int, 3>> triangles; ///< counter-clockwise seen from outside
-    std::vector<std::int32_t> moves;           ///< one a point: that made it, or stock_surface
+    std::vector<std::int32_t> moves;           ///< one per point: that made it, or stock_surface
     int stride = 1;                            ///< cells between the lattice points that were looked at
 };
 

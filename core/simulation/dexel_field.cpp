@@ -14,7 +14,7 @@ namespace millwright::simulation {
 
 namespace {
 
-constexpr double bytes_a_line = 2.0 * sizeof(Dexel) + static_cast<double>(sizeof(Tile)) / Tile::lines;
+constexpr double bytes_per_line = 2.0 * sizeof(Dexel) + static_cast<double>(sizeof(Tile)) / Tile::lines;
 constexpr double most_cells = 20'000.0; ///< along an axis
 
 int tiles_for(int cells) {
@@ -62,12 +62,12 @@ FieldSize field_size(const Box3& box, double pitch) {
     const double lines = lines_of(box.sizes(), pitch);
     constexpr double beyond = 1e15;
     size.lines = static_cast<std::size_t>(std::min(lines, beyond));
-    size.bytes = static_cast<std::size_t>(std::min(lines * bytes_a_line, beyond));
+    size.bytes = static_cast<std::size_t>(std::min(lines * bytes_per_line, beyond));
     return size;
 }
 
 double pitch_within(const Box3& box, std::size_t bytes) {
-    const double most = static_cast<double>(bytes) / bytes_a_line;
+    const double most = static_cast<double>(bytes) / bytes_per_line;
     double fine = 1e-6 * box.sizes().maxCoeff(), coarse = box.sizes().maxCoeff();
     fine = std::max(fine, box.sizes().maxCoeff() / most_cells);
     for (int n = 0; n < 60; ++n) {
@@ -205,8 +205,8 @@ double DexelField::volume() const {
             }
         }
     }
-    constexpr std::ptrdiff_t layers_a_chunk = 4;
-    parallel_for(nx, layers_a_chunk, [&](std::ptrdiff_t layer) {
+    constexpr std::ptrdiff_t layers_per_chunk = 4;
+    parallel_for(nx, layers_per_chunk, [&](std::ptrdiff_t layer) {
         const int x = static_cast<int>(layer);
         auto& found = ends[static_cast<std::size_t>(layer)];
         double sum = 0.0;

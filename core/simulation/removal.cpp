@@ -11,7 +11,7 @@ namespace millwright::simulation {
 
 namespace {
 
-constexpr std::size_t steps_a_batch = 2048;
+constexpr std::size_t steps_per_batch = 2048;
 
 /// Smaller by `distance`, measured by the normal, along bottom, corner and flank; at most by half the radius.
 toolpath::ProfileShape inset(toolpath::ProfileShape shape, double distance) {
@@ -118,7 +118,7 @@ void divide(const CuttingBody& cutter,
             std::vector<CutStep>& steps) {
     const double turn = angle_between(from.axis, to.axis);
     const double wanted = step_count(cutter, from, to);
-    expects(wanted <= most_steps_a_move, "a move of a cutter is not so long");
+    expects(wanted <= most_steps_per_move, "a move of a cutter is not so long");
     const int count = static_cast<int>(wanted);
     geometry::ToolPose last = from;
     for (int n = 1; n <= count; ++n) {
@@ -130,9 +130,9 @@ void divide(const CuttingBody& cutter,
 }
 
 void Removal::remove(std::span<const CutStep> steps, const Progress& progress) {
-    for (std::size_t done = 0; done < steps.size(); done += steps_a_batch) {
+    for (std::size_t done = 0; done < steps.size(); done += steps_per_batch) {
         progress.report(static_cast<double>(done) / static_cast<double>(steps.size()));
-        remove_batch(steps.subspan(done, std::min(steps_a_batch, steps.size() - done)), progress);
+        remove_batch(steps.subspan(done, std::min(steps_per_batch, steps.size() - done)), progress);
     }
     progress.report(1.0);
 }
@@ -158,8 +158,8 @@ void Removal::remove_batch(std::span<const CutStep> steps, const Progress& progr
         TileCutter cutter(field_, work.k, work.i, work.j);
         TileCut found;
         for (std::size_t s = 0; s < work.steps.size(); ++s) {
-            constexpr std::size_t steps_a_check = 256;
-            if (s % steps_a_check == 0) {
+            constexpr std::size_t steps_per_check = 256;
+            if (s % steps_per_check == 0) {
                 progress.check();
             }
             if (cutter.cut(ready[work.steps[s]], found)) {

@@ -41,7 +41,7 @@ struct CutStep {
 };
 
 /// No straight move is divided into more.
-inline constexpr double most_steps_a_move = 1e7;
+inline constexpr double most_steps_per_move = 1e7;
 /// How many steps a straight move is divided into.
 [[nodiscard]] double
 step_count(const CuttingBody& cutter, const geometry::ToolPose& from, const geometry::ToolPose& to);

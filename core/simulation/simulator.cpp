@@ -77,7 +77,7 @@ public:
             const double begun = static_cast<double>(block_ - from) / (block - from);
             take(block_, progress, begun);
             ++block_;
-            if (steps_.size() >= steps_at_a_time || (rewinds_ && steps_.size() >= steps_a_keyframe_)) {
+            if (steps_.size() >= steps_at_a_time || (rewinds_ && steps_.size() >= steps_per_keyframe_)) {
                 flush(progress, static_cast<double>(block_ - from) / (block - from));
                 keep();
             }
@@ -171,7 +171,7 @@ private:
             return;
         }
         int thinned = 0;
-        if (block_ > last && steps_since_ >= steps_a_keyframe_) {
+        if (block_ > last && steps_since_ >= steps_per_keyframe_) {
             thinned = keyframes_.add(*field_, block_, keyframe_room());
             states_.insert_or_assign(block_, state_);
             steps_since_ = 0;
@@ -179,7 +179,7 @@ private:
             thinned = keyframes_.fit(keyframe_room());
         }
         for (int n = 0; n < thinned; ++n) {
-            steps_a_keyframe_ *= 2;
+            steps_per_keyframe_ *= 2;
         }
         std::erase_if(states_, [&](const auto& one) {
             return one.first != 0 && next_keyframe(one.first) != one.first;
@@ -283,7 +283,7 @@ private:
                             Vec3(from.axis + f * (to.axis - from.axis)).normalized()};
         };
         // A part of a move turns so little that the chord of its axis is even.
-        if (step_count(body, from, to) * (last - first) > 0.99 * most_steps_a_move) {
+        if (step_count(body, from, to) * (last - first) > 0.99 * most_steps_per_move) {
             throw at_line(
                 block_of(kind.move), "the move is too long for so small a tool", "check the tool's diameter");
         }
@@ -370,8 +370,8 @@ private:
     Keyframes keyframes_;
     std::set<int> without_spindle_;
     std::vector<CutStep> steps_;
-    std::size_t steps_since_ = 0;         // the last keyframe
-    std::size_t steps_a_keyframe_ = 2000; // a tenth of a second, with a tool of usual size
+    std::size_t steps_since_ = 0;           // the last keyframe
+    std::size_t steps_per_keyframe_ = 2000; // a tenth of a second, with a tool of usual size
     int block_ = 0;
     int farthest_ = 0; // block that was ever cut to
     double done_ = 0.0;

@@ -18,11 +18,11 @@ namespace {
 
 using grid::Track;
 
-plan::Workpiece workpiece_of_case(const FewestPointsCase& of, const plan::Folders& folders) {
+plan::CuttingSetup cutting_setup_of_case(const FewestPointsCase& of, const plan::Folders& folders) {
     project::Project project = project::project_from_preset(of.surface);
     project.machine.file = of.machine;
     project.grid.direction = grid::TrackDirection::along_u;
-    return workpiece_of(project, folders);
+    return cutting_setup_of(project, folders);
 }
 
 std::vector<Track> tracks_of(const FewestPointsCase& of) {
@@ -124,7 +124,7 @@ std::vector<FewestPointsRow> fewest_points(const FewestPointsCase& of,
                                            const Progress& progress) {
     expects(of.tracks >= 1 && of.tracks <= 1000, "a study has 1 to 1000 tracks");
     expects(std::ranges::all_of(tolerances, [](double t) { return t > 0.0; }), "a tolerance is positive");
-    const toolpath::KinematicError model = workpiece_of_case(of, folders).error_model();
+    const toolpath::KinematicError model = cutting_setup_of_case(of, folders).error_model();
     const std::vector<Track> tracks = tracks_of(of);
     const auto per_row = std::ssize(tracks);
     const auto jobs = std::ssize(tolerances) * per_row;

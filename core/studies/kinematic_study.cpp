@@ -36,27 +36,28 @@ project::Project project_of(const StudyCase& of) {
 }
 
 StudyFigures study_figures(const plan::Evaluation& evaluation,
-                           const plan::Workpiece& workpiece,
+                           const plan::CuttingSetup& cutting_setup,
                            const Progress& progress) {
     return {evaluation.closest,
             evaluation.track_gap.value(), // of a zigzag
             evaluation.path_length,
-            plan::estimated_time(evaluation, workpiece.machine, project::ProgramInput{}, progress),
-            workpiece.machine.description().workpiece_offset};
+            plan::estimated_time(evaluation, cutting_setup.machine, project::ProgramInput{}, progress),
+            cutting_setup.machine.description().workpiece_offset};
 }
 
 /// Nothing where no place changes the error by more than rounding, as on machines whose rotary axes are all
 /// in the head.
-std::optional<plan::Workpiece> in_best_set_up(plan::Workpiece workpiece, const Progress& progress) {
+std::optional<plan::CuttingSetup> in_best_set_up(plan::CuttingSetup cutting_setup, const Progress& progress) {
     constexpr double rounding = 1e-6;
     const plan::SetUpStudySettings settings;
     const auto found = toolpath::search_set_up(
-        plan::set_up_cost(workpiece, settings), plan::set_up_box(workpiece, settings), progress);
+        plan::set_up_cost(cutting_setup, settings), plan::set_up_box(cutting_setup, settings), progress);
     if (!(found.best.cost < (1.0 - rounding) * found.start.cost)) {
         return std::nullopt;
     }
-    workpiece.machine = workpiece.machine.with_workpiece_offset(toolpath::offset_of(found.best.place));
-    return workpiece;
+    cutting_setup.machine =
+        cutting_setup.machine.with_workpiece_offset(toolpath::offset_of(found.best.place));
+    return cutting_setup;
 }
 
 constexpr double visible_gain = 1e-3; // a smaller part of a figure is rounding
@@ -71,25 +72,25 @@ bool lowers_a_figure(const grid::ErrorSummary& now, const grid::ErrorSummary& be
 /// A workpiece with its uniform grid, and rows of grids on it.
 class Bench {
 public:
-    Bench(StudyCase of, plan::Workpiece workpiece, project::GridInput input, const Progress& progress)
-        : of_(std::move(of)), workpiece_(std::move(workpiece)), input_(std::move(input)),
-          uniform_(
-              plan::evaluate(workpiece_, plan::uniform_outcome(input_), plan::report_sampling, progress)) {}
+    Bench(StudyCase of, plan::CuttingSetup cutting_setup, project::GridInput input, const Progress& progress)
+        : of_(std::move(of)), cutting_setup_(std::move(cutting_setup)), input_(std::move(input)),
+          uniform_(plan::evaluate(
+              cutting_setup_, plan::uniform_outcome(input_), plan::report_sampling, progress)) {}
 
     [[nodiscard]] StudyRow uniform_row(StudyMethod method, const Progress& progress) const {
-        return {of_, method, study_figures(uniform_, workpiece_, progress), {}};
+        return {of_, method, study_figures(uniform_, cutting_setup_, progress), {}};
     }
     [[nodiscard]] StudyRow
     improved_row(StudyMethod method, project::GridMethod grid_method, const Progress& progress) const {
         const plan::Evaluation found = plan::improved_evaluation(
-            {grid_method, input_, workpiece_}, uniform_, progress.part(0.0, making));
+            {grid_method, input_, cutting_setup_}, uniform_, progress.part(0.0, making));
         return row_of_grid(method, found, progress.part(making, 1.0));
     }
     /// The chain's grid, and the same with its branches and turns chosen for the least error of the path.
     [[nodiscard]] std::array<StudyRow, 2>
     chain_rows(StudyMethod chain, StudyMethod sequenced, const Progress& progress) const {
         const plan::Evaluation found = plan::improved_evaluation(
-            {project::GridMethod::chain, input_, workpiece_}, uniform_, progress.part(0.0, making));
+            {project::GridMethod::chain, input_, cutting_setup_}, uniform_, progress.part(0.0, making));
         return {row_of_grid(chain, found, progress.part(making, making)),
                 sequenced_row(sequenced, found, progress.part(making, 1.0))};
     }
@@ -99,11 +100,11 @@ private:
 
     [[nodiscard]] StudyRow
     sequenced_row(StudyMethod method, const plan::Evaluation& nearest, const Progress& progress) const {
-        plan::Workpiece sequenced = workpiece_;
+        plan::CuttingSetup sequenced = cutting_setup_;
         sequenced.sequencing.goal = toolpath::SequencingGoal::error;
         const plan::Evaluation found =
             plan::evaluate(sequenced, nearest.outcome, plan::report_sampling, progress.part(0.0, making));
-        const bool worse = plan::is_worse(found, nearest, workpiece_.machine);
+        const bool worse = plan::is_worse(found, nearest, cutting_setup_.machine);
         const Progress told = progress.part(making, 1.0);
         if (!worse && lowers_a_figure(found.closest, nearest.closest)) {
             return row_of(method, found, told);
@@ -117,7 +118,7 @@ private:
     }
     [[nodiscard]] StudyRow
     row_of(StudyMethod method, const plan::Evaluation& found, const Progress& progress) const {
-        return {of_, method, study_figures(found, workpiece_, progress), found.outcome.note};
+        return {of_, method, study_figures(found, cutting_setup_, progress), found.outcome.note};
     }
     [[nodiscard]] StudyRow
     row_of_grid(StudyMethod method, const plan::Evaluation& found, const Progress& progress) const {
@@ -127,7 +128,7 @@ private:
     }
 
     StudyCase of_;
-    plan::Workpiece workpiece_;
+    plan::CuttingSetup cutting_setup_;
     project::GridInput input_;
     plan::Evaluation uniform_;
 };
@@ -241,10 +242,10 @@ std::vector<StudyCase> quick_study() {
 
 std::vector<StudyRow> studied(const StudyCase& of, const plan::Folders& folders, const Progress& progress) {
     const project::Project project = project_of(of);
-    const plan::Workpiece workpiece = plan::workpiece_of(project, folders);
+    const plan::CuttingSetup cutting_setup = plan::cutting_setup_of(project, folders);
     try {
         std::vector<StudyRow> rows;
-        const Bench there(of, workpiece, project.grid, progress.part(0.0, 0.005));
+        const Bench there(of, cutting_setup, project.grid, progress.part(0.0, 0.005));
         rows.push_back(there.uniform_row(StudyMethod::uniform, progress.part(0.005, 0.01)));
         rows.push_back(there.improved_row(
             StudyMethod::redistribution, project::GridMethod::redistribution, progress.part(0.01, 0.02)));
@@ -257,7 +258,7 @@ std::vector<StudyRow> studied(const StudyCase& of, const plan::Folders& folders,
         const auto by_chain =
             there.chain_rows(StudyMethod::chain, StudyMethod::sequencing, progress.part(0.15, 0.5));
         rows.insert(rows.end(), by_chain.begin(), by_chain.end());
-        const auto moved = in_best_set_up(workpiece, progress.part(0.5, 0.6));
+        const auto moved = in_best_set_up(cutting_setup, progress.part(0.5, 0.6));
         const std::vector<StudyRow> with_set_up =
             moved ? rows_there(Bench(of, *moved, project.grid, progress.part(0.6, 0.6)),
                                rows,

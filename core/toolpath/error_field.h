@@ -23,7 +23,7 @@ struct MoveDeviation {
 };
 
 struct ErrorField {
-    std::vector<MoveDeviation> moves; ///< one a move: points.size() - 1
+    std::vector<MoveDeviation> moves; ///< one per move: points.size() - 1
 };
 
 /// When the true pose is compared inside each move.

@@ -9,7 +9,7 @@
 
 namespace millwright::toolpath {
 
-/// Axis positions, one a path point. The tool reaches every pose exactly (round_trip_mm).
+/// Axis positions, one per path point. The tool reaches every pose exactly (round_trip_mm).
 struct AxisPath {
     std::vector<kinematics::AxisPositions> positions;
     double rotary_travel = 0.0; ///< sum over moves and rotary axes, rad

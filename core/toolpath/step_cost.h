@@ -19,7 +19,7 @@ using StepCost =
 /// The cost of moves from path point n - 1 to path point n >= 1. Callable from several threads.
 using StepCosts = std::function<StepCost(std::size_t n)>;
 
-/// sum over the axes of weight |travel|. `weights`: one an axis in the order of MachineModel::axes(), not
+/// sum over the axes of weight |travel|. `weights`: one per axis in the order of MachineModel::axes(), not
 /// negative; if empty 1 for each rotary axis (rad) and 0 for the others, which is AxisPath::rotary_travel.
 [[nodiscard]] StepCosts travel_costs(const kinematics::MachineModel& machine,
                                      std::vector<double> weights = {});

@@ -43,7 +43,7 @@ struct SweptCut {
     int nu = 0, nv = 0;
     /// [nu x nv], row = u: along the normal; below 0: cut too deep; infinity: not cut
     std::vector<double> heights;
-    std::vector<MoveBites> moves; ///< one a move
+    std::vector<MoveBites> moves; ///< one per move
 
     [[nodiscard]] double height(int i, int j) const {
         return heights[static_cast<std::size_t>(i) * static_cast<std::size_t>(nv) +

@@ -109,14 +109,14 @@ constexpr std::array long_functions = {
 };
 constexpr std::array many_flags = {
     Larger{"app/commands/emulate_command.cpp", "EmulateOptions", 6},
-    Larger{"app/controller.h", "ControllerChoice", 13},
+    Larger{"app/connected_controller.h", "ControllerChoice", 13},
     Larger{"core/drivers/driver.h", "Capabilities", 20},
     Larger{"core/drivers/driver_status.h", "DriverStatus", 6},
     Larger{"core/drivers/grbl/firmware.h", "GrblFacts", 6},
-    Larger{"core/drivers/grbl/internal/session.h", "Session", 19},
+    Larger{"core/drivers/grbl/internal/grbl_session.h", "Session", 19},
     Larger{"core/drivers/linuxcnc/internal/shell_session.h", "ShellSession", 10},
     Larger{"core/drivers/virtual_machine/internal/virtual_axes.h", "VirtualAxes", 7},
-    Larger{"core/emulators/grbl/internal/controller.h", "Controller", 11},
+    Larger{"core/emulators/grbl/internal/emulated_controller.h", "Controller", 11},
     Larger{"core/emulators/grbl/internal/parser.h", "Modes", 6},
     Larger{"core/emulators/linuxcnc/internal/task.h", "LinuxCncTask", 6},
     Larger{"core/gcode/interpreter.cpp", "Interpreter", 7},
@@ -126,8 +126,8 @@ constexpr std::array many_flags = {
     Larger{"core/pmac/driver/internal/pmac_session.h", "PmacSession", 26},
     Larger{"core/pmac/emulator/internal/coordinate_system.h", "CoordinateSystem", 11},
     Larger{"core/pmac/emulator/internal/motor.h", "Motor", 12},
-    Larger{"ui/actions/hand_settings.h", "HandSettings", 7},
-    Larger{"ui/actions/session.h", "Session", 9},
+    Larger{"ui/actions/manual_settings.h", "HandSettings", 7},
+    Larger{"ui/actions/view_state.h", "Session", 9},
     Larger{"ui/render/gamepad.h", "Gamepad", 6},
     Larger{"ui/viewport/scene.h", "Layers", 26},
 };

@@ -12,7 +12,7 @@ namespace {
 using namespace millwright;       // NOLINT(google-build-using-namespace)
 using namespace millwright::plot; // NOLINT(google-build-using-namespace)
 
-void read(std::string_view bytes, const ReaderSettings& settings) {
+void read(std::string_view bytes, const HpglSettings& settings) {
     try {
         const Plot plot = read_hpgl(bytes, "fuzz.plt", settings);
         std::int64_t points = 0;
@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    ReaderSettings settings;
+    HpglSettings settings;
     settings.most_points = 20'000;
     read(bytes, settings);
     settings.strictness = Strictness::strict;

@@ -1,7 +1,7 @@
 #include "ui/actions/action.h"
 
 #include "core/base/error.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/app_controller.h"
 
 #include <fmt/format.h>
 
@@ -23,70 +23,68 @@ const Action& Catalogue::find(std::string_view id) const {
 }
 
 void ActionQueue::run(std::string id) {
-    requests_.emplace_back([id = std::move(id)](Workshop& workshop) { workshop.run(id); });
+    requests_.emplace_back([id = std::move(id)](AppController& app) { app.run(id); });
 }
 
 void ActionQueue::edit(std::string title,
                        std::function<void(project::Project&)> change,
                        std::string merge_key) {
     requests_.emplace_back([title = std::move(title), change = std::move(change), key = std::move(merge_key)](
-                               Workshop& workshop) { workshop.edit(title, change, key); });
+                               AppController& app) { app.edit(title, change, key); });
 }
 
 void ActionQueue::end_step() {
-    requests_.emplace_back([](Workshop& workshop) { workshop.end_step(); });
+    requests_.emplace_back([](AppController& app) { app.end_step(); });
 }
 
-void ActionQueue::show(std::function<void(Session&)> change) {
-    requests_.emplace_back([change = std::move(change)](Workshop& workshop) { change(workshop.session()); });
+void ActionQueue::show(std::function<void(ViewState&)> change) {
+    requests_.emplace_back([change = std::move(change)](AppController& app) { change(app.view_state()); });
 }
 
 void ActionQueue::open_file(std::filesystem::path file) {
-    requests_.emplace_back([file = std::move(file)](Workshop& workshop) {
+    requests_.emplace_back([file = std::move(file)](AppController& app) {
         if (file.extension() == ".json") {
-            workshop.leave("open " + file.filename().string(), [file](Workshop& free) { free.open(file); });
+            app.leave("open " + file.filename().string(), [file](AppController& free) { free.open(file); });
         } else { // the project stays
-            workshop.open(file);
+            app.open(file);
         }
     });
 }
 
 void ActionQueue::save_file(std::filesystem::path file) {
-    requests_.emplace_back([file = std::move(file)](Workshop& workshop) { workshop.save(file); });
+    requests_.emplace_back([file = std::move(file)](AppController& app) { app.save(file); });
 }
 
-void ActionQueue::plot(std::function<void(PlotBench&)> what) {
-    requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.plot()); });
+void ActionQueue::plot(std::function<void(PlotWorkspace&)> what) {
+    requests_.emplace_back([what = std::move(what)](AppController& app) { what(app.plot()); });
 }
 
-void ActionQueue::arm(std::function<void(ArmBench&)> what) {
-    requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.arm()); });
+void ActionQueue::arm(std::function<void(ArmWorkspace&)> what) {
+    requests_.emplace_back([what = std::move(what)](AppController& app) { what(app.arm()); });
 }
 
-void ActionQueue::processor(std::function<void(ProcessorBench&)> what) {
-    requests_.emplace_back([what = std::move(what)](Workshop& workshop) { what(workshop.processor()); });
+void ActionQueue::processor(std::function<void(ProcessorWorkspace&)> what) {
+    requests_.emplace_back([what = std::move(what)](AppController& app) { what(app.processor()); });
 }
 
 void ActionQueue::tell(std::function<void(drivers::Driver&)> what) {
-    requests_.emplace_back(
-        [what = std::move(what)](Workshop& workshop) { workshop.controller().tell(what); });
+    requests_.emplace_back([what = std::move(what)](AppController& app) { app.connection().tell(what); });
 }
 
 void ActionQueue::queue(std::function<void(jobs::JobQueue&)> change) {
-    requests_.emplace_back(
-        [change = std::move(change)](Workshop& workshop) { change(workshop.queue().open()); });
+    requests_.emplace_back([change = std::move(change)](AppController& app) { change(app.queue().open()); });
 }
 
 void ActionQueue::open_queued(jobs::QueuedJobId id) {
-    requests_.emplace_back([id](Workshop& workshop) { workshop.open_queued(id); });
+    requests_.emplace_back([id](AppController& app) { app.open_queued(id); });
 }
 
 void ActionQueue::set_overrides(const drivers::Overrides& wanted) {
-    requests_.emplace_back([wanted](Workshop& workshop) {
-        if (workshop.look().job.running) {
-            workshop.jobs().set_overrides(wanted);
+    requests_.emplace_back([wanted](AppController& app) {
+        if (app.look().job.running) {
+            app.jobs().set_overrides(wanted);
         } else {
-            workshop.controller().tell([&](drivers::Driver& driver) { driver.set_overrides(wanted); });
+            app.connection().tell([&](drivers::Driver& driver) { driver.set_overrides(wanted); });
         }
     });
 }

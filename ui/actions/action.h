@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/project/history.h"
-#include "ui/actions/jog_hand.h"
-#include "ui/actions/workbench.h"
+#include "ui/actions/frame_state.h"
+#include "ui/actions/hold_to_run_jog.h"
 #include "ui/widgets/permission.h"
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace millwright::actions {
 
-class Workshop;
+class AppController;
 
 struct ActionInfo {
     std::string_view id;       ///< "grid.adapt"; never changes once released: scripts use it
@@ -31,15 +31,15 @@ struct ActionInfo {
 /// The menu of actions that only answer a dialog: in no menu and not in the palette.
 inline constexpr std::string_view dialog_menu = "Dialog";
 
-/// What an action may lay hands on. Made by the workshop.
-struct Hands {
+/// What an action works with. Made by AppController.
+struct ActionContext {
     project::History& history;
-    Session& session;
+    ViewState& view_state;
     Document& document;
     plan::Pipeline& pipeline;
     JobRunner& jobs;
-    const Workbench& now;
-    Workshop& workshop; ///< for whole files
+    const FrameState& now;
+    AppController& app; ///< for whole files
 };
 
 class Action {
@@ -50,11 +50,11 @@ public:
     virtual ~Action() = default;
     [[nodiscard]] virtual const ActionInfo& info() const = 0;
     /// Yes, or the sentence why not.
-    [[nodiscard]] virtual widgets::Permission permission(const Workbench& now) const = 0;
+    [[nodiscard]] virtual widgets::Permission permission(const FrameState& now) const = 0;
     /// Whether it is a switch that is on: ticked in the menu.
-    [[nodiscard]] virtual bool is_on(const Workbench&) const { return false; }
+    [[nodiscard]] virtual bool is_on(const FrameState&) const { return false; }
     /// Throws Error with what went wrong; the runner tells the person and leaves everything as it was.
-    virtual void run(Hands& hands) const = 0;
+    virtual void run(ActionContext& context) const = 0;
 };
 
 /// All actions without arguments, in menu order. Ids are unique.
@@ -80,19 +80,19 @@ public:
     void edit(std::string title, std::function<void(project::Project&)> change, std::string merge_key = {});
     void end_step();
     /// A change of what is looked at.
-    void show(std::function<void(Session&)> change);
+    void show(std::function<void(ViewState&)> change);
     /// Opens a chosen file, after asking what becomes of unsaved changes; saves to one.
     void open_file(std::filesystem::path file);
     void save_file(std::filesystem::path file);
     /// What is done with another file that was chosen.
-    void files(std::function<void(Workshop&)> what) { requests_.push_back(std::move(what)); }
+    void files(std::function<void(AppController&)> what) { requests_.push_back(std::move(what)); }
 
     /// What is to be done with the processor.
-    void processor(std::function<void(ProcessorBench&)> what);
+    void processor(std::function<void(ProcessorWorkspace&)> what);
     /// ... with the arm.
-    void arm(std::function<void(ArmBench&)> what);
+    void arm(std::function<void(ArmWorkspace&)> what);
     /// ... and with the plot.
-    void plot(std::function<void(PlotBench&)> what);
+    void plot(std::function<void(PlotWorkspace&)> what);
     /// What the connected machine is to do, at once.
     void tell(std::function<void(drivers::Driver&)> what);
     /// A change of the job queue.
@@ -105,7 +105,7 @@ public:
     void jog(JogWish wish) { jog_ = std::move(wish); }
     [[nodiscard]] std::optional<JogWish> take_jog() { return std::exchange(jog_, std::nullopt); }
 
-    using Request = std::function<void(Workshop&)>;
+    using Request = std::function<void(AppController&)>;
     [[nodiscard]] std::vector<Request> take();
 
 private:

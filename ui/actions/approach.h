@@ -19,19 +19,19 @@
 namespace millwright::actions {
 
 /// What a person set up for beginning in the middle.
-struct BeginAt {
+struct StartAt {
     bool on = false;
     int line = 1;                    ///< of the file
     std::optional<double> clearance; ///< as in jobs::RunFromSettings
     std::string hash;                ///< of the program that it is meant for; empty: any
 
-    friend bool operator==(const BeginAt&, const BeginAt&) = default;
+    friend bool operator==(const StartAt&, const StartAt&) = default;
 };
 
 /// What is to be worked out.
 struct ApproachWish {
     JobSource source;
-    BeginAt begin;
+    StartAt begin;
     gcode::Dialect dialect = gcode::Dialect::linuxcnc;
 
     friend bool operator==(const ApproachWish&, const ApproachWish&) = default;

@@ -1,8 +1,8 @@
 // What a person can do with the arm as a whole; its joints and its goal are moved by panels and the view.
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/app_controller.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -13,37 +13,37 @@ namespace {
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission drawn(const Workbench& now) {
-    if (now.session.workspace != Workspace::arm || !now.arm.loaded()) {
+Permission drawn(const FrameState& now) {
+    if (now.view_state.workspace != Workspace::arm || !now.arm.loaded()) {
         return Permission::refused("Available only in the Arm workspace (Shift+F6).");
     }
     return now.arm_connected() ? Permission::refused("The view follows the connected controller.")
                                : Permission{};
 }
 
-Permission can_go(const Workbench& now) {
+Permission can_go(const FrameState& now) {
     const Permission able = drawn(now);
     return able.allowed && now.arm.chosen() < 0
                ? Permission::refused("Set a goal that the arm can reach first.")
                : able;
 }
 
-Permission moves(const Workbench& now) {
+Permission moves(const FrameState& now) {
     return now.arm.moving() || now.arm.works_out_path_motion() ? Permission{}
                                                                : Permission::refused("Nothing is moving.");
 }
 
-Permission can_enable(const Workbench& now) {
-    if (!now.controller.connected() || !now.controller.can.power) {
+Permission can_enable(const FrameState& now) {
+    if (!now.connection.connected() || !now.connection.can.power) {
         return Permission::refused("No controller is connected whose motors can be enabled here.");
     }
     if (const Permission in_sight = seen(now); !in_sight.allowed) {
         return in_sight;
     }
-    if (now.controller.status.powered) {
+    if (now.connection.status.powered) {
         return Permission::refused("The motors already have power.");
     }
-    const DriverState state = now.controller.status.state;
+    const DriverState state = now.connection.status.state;
     if (state == DriverState::alarm) {
         return Permission::refused("Alarm: inspect the arm, then unlock it.");
     }
@@ -52,12 +52,12 @@ Permission can_enable(const Workbench& now) {
                : Permission::refused("The arm is moving.");
 }
 
-void enable(Hands& hands) {
-    hands.workshop.controller().tell([](drivers::Driver& driver) { driver.enable(); });
+void enable(ActionContext& context) {
+    context.app.connection().tell([](drivers::Driver& driver) { driver.enable(); });
 }
 
-template <ArmMove how> void move_arm(Hands& hands) {
-    hands.workshop.arm().go(how);
+template <ArmMove how> void move_arm(ActionContext& context) {
+    context.app.arm().go(how);
 }
 
 } // namespace
@@ -72,11 +72,11 @@ void add_arm_actions(Actions& actions) {
          "",
          icons::home},
         drawn,
-        [](Hands& hands) { hands.workshop.arm().go_home(); });
+        [](ActionContext& context) { context.app.arm().go_home(); });
     add(actions,
         {"arm.open", menu, "Open an arm", "Loads an arm description from a file.", "", icons::folder},
         drawn,
-        [](Hands& hands) { hands.session.question = FileQuestion::open_arm; });
+        [](ActionContext& context) { context.view_state.file_prompt = FilePrompt::open_arm; });
     add(actions,
         {"arm.go_joints",
          menu,
@@ -98,7 +98,7 @@ void add_arm_actions(Actions& actions) {
     add(actions,
         {"arm.stop", menu, "Stop the simulated arm", "The arm stays where it is.", "", icons::stop},
         moves,
-        [](Hands& hands) { hands.workshop.arm().stop(); });
+        [](ActionContext& context) { context.app.arm().stop(); });
     add(
         actions,
         {"arm.clear_trace",
@@ -107,10 +107,10 @@ void add_arm_actions(Actions& actions) {
          "Clears the recorded path of the tip.",
          "",
          icons::remove},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             return now.arm.loaded() ? Permission{} : Permission::refused("No arm is loaded.");
         },
-        [](Hands& hands) { hands.workshop.arm().clear_trace(); });
+        [](ActionContext& context) { context.app.arm().clear_trace(); });
     add(actions,
         {"arm.enable",
          menu,

@@ -2,9 +2,9 @@
 #include "core/base/units.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/project/taught_points.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/app_controller.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -15,8 +15,8 @@ namespace {
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission in_workspace(const Workbench& now) {
-    return now.session.workspace == Workspace::arm && now.arm.loaded()
+Permission in_workspace(const FrameState& now) {
+    return now.view_state.workspace == Workspace::arm && now.arm.loaded()
                ? Permission{}
                : Permission::refused("Available only in the Arm workspace (Shift+F6).");
 }
@@ -27,17 +27,17 @@ Permission known_position(const drivers::DriverStatus& status) {
 }
 
 /// A point is where the arm stands: of a connected one that has to be known.
-Permission can_teach(const Workbench& now) {
+Permission can_teach(const FrameState& now) {
     const Permission there = in_workspace(now);
-    return there.allowed && now.arm_connected() ? known_position(now.controller.status) : there;
+    return there.allowed && now.arm_connected() ? known_position(now.connection.status) : there;
 }
 
 /// The drawn arm may always play; a connected one at rest, with power, where its position is known.
-Permission can_play_arm(const Workbench& now) {
+Permission can_play_arm(const FrameState& now) {
     if (const Permission there = in_workspace(now); !there.allowed || !now.arm_connected()) {
         return there;
     }
-    const drivers::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.connection.status;
     if (status.state != DriverState::idle && status.state != DriverState::stopped) {
         return Permission::refused(status.state == DriverState::alarm ? "An alarm is active."
                                                                       : "The arm is moving.");
@@ -48,14 +48,14 @@ Permission can_play_arm(const Workbench& now) {
     return known_position(status);
 }
 
-Permission can_play_points(const Workbench& now) {
+Permission can_play_points(const FrameState& now) {
     const Permission able = can_play_arm(now);
     return able.allowed && now.project.arm.points.empty()
                ? Permission::refused("No point has been taught yet.")
                : able;
 }
 
-Permission sound_program(const Workbench& now) {
+Permission sound_program(const FrameState& now) {
     if (now.project.arm.program.find_first_not_of(" \t\r\n") == std::string::npos) {
         return Permission::refused("There is no program yet: write one under Program.");
     }
@@ -63,14 +63,14 @@ Permission sound_program(const Workbench& now) {
                                            : Permission::refused("The program has errors: see its lines.");
 }
 
-Permission can_simulate(const Workbench& now) {
+Permission can_simulate(const FrameState& now) {
     if (const Permission there = in_workspace(now); !there.allowed) {
         return there;
     }
     return now.arm.program().busy() ? Permission::refused("The simulation is running.") : sound_program(now);
 }
 
-Permission can_run_arm_program(const Workbench& now) {
+Permission can_run_arm_program(const FrameState& now) {
     if (!now.arm_connected()) {
         return Permission::refused("No PMAC is connected: simulate the program instead.");
     }
@@ -78,31 +78,31 @@ Permission can_run_arm_program(const Workbench& now) {
     return able.allowed ? sound_program(now) : able;
 }
 
-Permission takes_lines(const Workbench& now) {
+Permission takes_lines(const FrameState& now) {
     if (!now.arm_connected()) {
         return Permission::refused("No PMAC is connected.");
     }
-    const DriverState state = now.controller.status.state;
+    const DriverState state = now.connection.status.state;
     return state == DriverState::idle || state == DriverState::stopped
                ? Permission{}
                : Permission::refused(state == DriverState::alarm ? "An alarm is active."
                                                                  : "The arm is moving.");
 }
 
-Permission can_load_settings(const Workbench& now) {
+Permission can_load_settings(const FrameState& now) {
     const Permission able = takes_lines(now);
-    return able.allowed && now.controller.status.powered
+    return able.allowed && now.connection.status.powered
                ? Permission::refused(
                      "The motors have power, and a wrong setting would move them at once: use Kill first.")
                : able;
 }
 
-Permission can_send_arm_program(const Workbench& now) {
+Permission can_send_arm_program(const FrameState& now) {
     const Permission able = takes_lines(now);
     return able.allowed ? sound_program(now) : able;
 }
 
-Permission can_send_path(const Workbench& now) {
+Permission can_send_path(const FrameState& now) {
     const Permission able = can_play_arm(now);
     if (!able.allowed) {
         return able;
@@ -120,7 +120,7 @@ Permission can_send_path(const Workbench& now) {
                                      ".");
 }
 
-Permission sound_motion_file(const Workbench& now) {
+Permission sound_motion_file(const FrameState& now) {
     if (const Permission there = in_workspace(now); !there.allowed) {
         return there;
     }
@@ -132,26 +132,25 @@ Permission sound_motion_file(const Workbench& now) {
                : Permission::refused("There is no motion file yet: write one under Motion file.");
 }
 
-Permission can_simulate_motion(const Workbench& now) {
+Permission can_simulate_motion(const FrameState& now) {
     return now.arm_connected()
                ? Permission::refused("The view follows the connected controller: play the file instead.")
                : sound_motion_file(now);
 }
 
-Permission can_play_motion(const Workbench& now) {
+Permission can_play_motion(const FrameState& now) {
     const Permission able = can_play_arm(now);
     return able.allowed ? sound_motion_file(now) : able;
 }
 
-void record(Hands& hands) {
-    ArmBench& arm = hands.workshop.arm();
-    const int place = static_cast<int>(hands.now.project.arm.points.size());
-    hands.workshop.edit("Teach a point",
-                        [&](project::Project& draft) {
-                            draft.arm.points.push_back(
-                                arm.taught(project::free_point_name(draft.arm.points)));
-                        },
-                        {});
+void record(ActionContext& context) {
+    ArmWorkspace& arm = context.app.arm();
+    const int place = static_cast<int>(context.now.project.arm.points.size());
+    context.app.edit("Teach a point",
+                     [&](project::Project& draft) {
+                         draft.arm.points.push_back(arm.taught(project::free_point_name(draft.arm.points)));
+                     },
+                     {});
     arm.set_new_point(place);
 }
 
@@ -163,47 +162,48 @@ std::vector<double> degrees_of(const arm::JointPositions& joints) {
     return degrees;
 }
 
-void simulate(Hands& hands) {
-    ArmBench& arm = hands.workshop.arm();
-    const pmac::PmacSettings card = hands.now.arm_connected()
-                                        ? pmac::arm_settings_of(hands.now.controller.choice.axes)
+void simulate(ActionContext& context) {
+    ArmWorkspace& arm = context.app.arm();
+    const pmac::PmacSettings card = context.now.arm_connected()
+                                        ? pmac::arm_settings_of(context.now.connection.choice.axes)
                                         : pmac::five_axis_arm_settings();
-    arm.program().follow(hands.now.project.arm.program);
+    arm.program().follow(context.now.project.arm.program);
     arm.program().simulate(pmac::within_limits(card, arm.arm()), degrees_of(arm.joints()));
 }
 
 /// It is refused where a joint would leave its limits, as far as an emulated card tells in a short time.
-void run(Hands& hands) {
+void run(ActionContext& context) {
     constexpr double longest = 300.0; // s of the card's time; beyond it the driver watches alone
-    const ArmBench& arm = hands.workshop.arm();
+    const ArmWorkspace& arm = context.app.arm();
     pmac::MotionSimulationSettings settings;
-    settings.card = pmac::within_limits(pmac::arm_settings_of(hands.now.controller.choice.axes), arm.arm());
+    settings.card = pmac::within_limits(pmac::arm_settings_of(context.now.connection.choice.axes), arm.arm());
     settings.start_deg = degrees_of(arm.joints());
     settings.longest = longest;
-    const auto found = pmac::simulate_motion_program(hands.now.project.arm.program, "program", settings, {});
+    const auto found =
+        pmac::simulate_motion_program(context.now.project.arm.program, "program", settings, {});
     if (found.beyond_limits) {
         throw Error(*found.beyond_limits);
     }
     const bool known = found.faults.empty();
-    hands.workshop.run_on_card(arm.program().lines(), known ? found.duration : 0.0, {});
+    context.app.run_on_card(arm.program().lines(), known ? found.duration : 0.0, {});
     if (known) {
-        hands.workshop.arm().card_run().know_way(
+        context.app.arm().card_run().know_way(
             play_of(std::make_shared<const pmac::MotionSimulation>(found)).at);
     }
 }
 
 /// Into the card's buffer without running it.
-void send(Hands& hands) {
+void send(ActionContext& context) {
     std::string text = "CLOSE\nOPEN PROG 1\nCLEAR\n";
-    for (const std::string& line : hands.workshop.arm().program().lines()) {
+    for (const std::string& line : context.app.arm().program().lines()) {
         text += line + "\n";
     }
     text += "CLOSE";
-    hands.workshop.controller().tell([&](drivers::Driver& driver) { (void)driver.command(text); });
+    context.app.connection().tell([&](drivers::Driver& driver) { (void)driver.command(text); });
 }
 
-template <FileQuestion question> void ask_for_arm_file(Hands& hands) {
-    hands.session.question = question;
+template <FilePrompt prompt> void ask_for_arm_file(ActionContext& context) {
+    context.view_state.file_prompt = prompt;
 }
 
 void add_arm_points(Actions& actions) {
@@ -220,17 +220,17 @@ void add_arm_points(Actions& actions) {
          "",
          icons::play},
         can_play_points,
-        [](Hands& hands) {
-            hands.workshop.play_on_arm(hands.workshop.arm().tour(hands.now.project.arm.points));
+        [](ActionContext& context) {
+            context.app.play_on_arm(context.app.arm().taught_motion(context.now.project.arm.points));
         });
     add(actions,
         {"arm.open_points", menu, "Open points", "Replaces the present points.", "", icons::folder},
         in_workspace,
-        ask_for_arm_file<FileQuestion::open_points>);
+        ask_for_arm_file<FilePrompt::open_points>);
     add(actions,
         {"arm.save_points", menu, "Save points", "Saves it to a separate file.", "", icons::save},
         in_workspace,
-        ask_for_arm_file<FileQuestion::save_points>);
+        ask_for_arm_file<FilePrompt::save_points>);
 }
 
 void add_arm_programs(Actions& actions) {
@@ -266,11 +266,11 @@ void add_arm_programs(Actions& actions) {
     add(actions,
         {"arm.open_program", menu, "Open a program", "Replaces the present text.", "", icons::folder},
         in_workspace,
-        ask_for_arm_file<FileQuestion::open_motion_program>);
+        ask_for_arm_file<FilePrompt::open_motion_program>);
     add(actions,
         {"arm.save_program", menu, "Save the program", "As a file of its own.", "", icons::save},
         in_workspace,
-        ask_for_arm_file<FileQuestion::save_motion_program>);
+        ask_for_arm_file<FilePrompt::save_motion_program>);
 }
 
 void add_motion_files(Actions& actions) {
@@ -284,7 +284,7 @@ void add_motion_files(Actions& actions) {
          "",
          icons::file},
         can_play_arm,
-        ask_for_arm_file<FileQuestion::play_motion_file>);
+        ask_for_arm_file<FilePrompt::play_motion_file>);
     add(actions,
         {"arm.simulate_motion",
          menu,
@@ -293,7 +293,7 @@ void add_motion_files(Actions& actions) {
          "",
          icons::play},
         can_simulate_motion,
-        [](Hands& hands) { hands.workshop.simulate_motion_file(); });
+        [](ActionContext& context) { context.app.simulate_motion_file(); });
     add(actions,
         {"arm.stream_motion",
          menu,
@@ -303,7 +303,7 @@ void add_motion_files(Actions& actions) {
          "",
          icons::play},
         can_simulate_motion,
-        [](Hands& hands) { hands.workshop.stream_motion_file(); });
+        [](ActionContext& context) { context.app.stream_motion_file(); });
     add(actions,
         {"arm.play_motion",
          menu,
@@ -312,7 +312,7 @@ void add_motion_files(Actions& actions) {
          "",
          icons::play},
         can_play_motion,
-        [](Hands& hands) { hands.workshop.play_motion_text(); });
+        [](ActionContext& context) { context.app.play_motion_text(); });
     add(actions,
         {"arm.save_result",
          menu,
@@ -321,15 +321,15 @@ void add_motion_files(Actions& actions) {
          "",
          icons::save},
         sound_motion_file,
-        ask_for_arm_file<FileQuestion::save_motion_result>);
+        ask_for_arm_file<FilePrompt::save_motion_result>);
     add(actions,
         {"arm.open_motion", menu, "Open a motion file", "Replaces the present text.", "", icons::folder},
         in_workspace,
-        ask_for_arm_file<FileQuestion::open_motion_file>);
+        ask_for_arm_file<FilePrompt::open_motion_file>);
     add(actions,
         {"arm.save_motion", menu, "Save the motion file", "As a file of its own.", "", icons::save},
         in_workspace,
-        ask_for_arm_file<FileQuestion::save_motion_file>);
+        ask_for_arm_file<FilePrompt::save_motion_file>);
 }
 
 void add_arm_sending(Actions& actions) {
@@ -342,7 +342,7 @@ void add_arm_sending(Actions& actions) {
          "",
          icons::settings},
         can_load_settings,
-        ask_for_arm_file<FileQuestion::load_card_settings>);
+        ask_for_arm_file<FilePrompt::load_card_settings>);
     add(actions,
         {"arm.send_path",
          menu,
@@ -352,7 +352,7 @@ void add_arm_sending(Actions& actions) {
          "",
          icons::toolpath},
         can_send_path,
-        [](Hands& hands) { hands.workshop.arm().want_path_motion(hands.now.arm_connected()); });
+        [](ActionContext& context) { context.app.arm().want_path_motion(context.now.arm_connected()); });
 }
 
 } // namespace

@@ -1,14 +1,14 @@
 #include "ui/actions/at_rest.h"
 
+#include "ui/actions/frame_state.h"
 #include "ui/actions/tool_changes.h"
-#include "ui/actions/workbench.h"
 
 namespace millwright::actions {
 
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission at_rest(const ControllerView& machine) {
+Permission at_rest(const ConnectionView& machine) {
     if (machine.status.link_lost) {
         return Permission::refused("The link is lost: reconnect first.");
     }
@@ -25,8 +25,8 @@ Permission at_rest(const ControllerView& machine) {
                : Permission::refused("The machine is moving.");
 }
 
-Permission seen(const Workbench& now) {
-    const Workspace at = now.session.workspace;
+Permission seen(const FrameState& now) {
+    const Workspace at = now.view_state.workspace;
     return at == Workspace::machine || at == Workspace::arm
                ? Permission{}
                : Permission::refused("Available only in the workspaces Machine (F6) and Arm (Shift+F6), "
@@ -35,18 +35,18 @@ Permission seen(const Workbench& now) {
 
 namespace {
 
-bool reaches_arm(const ControllerView& machine) {
+bool reaches_arm(const ConnectionView& machine) {
     return machine.connected() && machine.row().kind == machine::MachineKind::arm &&
            !machine.status.link_lost;
 }
 
 } // namespace
 
-bool arm_moves(const ControllerView& machine) {
+bool arm_moves(const ConnectionView& machine) {
     return reaches_arm(machine) && drivers::is_at_work(machine.status.state);
 }
 
-bool arm_under_power(const ControllerView& machine) {
+bool arm_under_power(const ConnectionView& machine) {
     return arm_moves(machine) || (reaches_arm(machine) && machine.status.powered);
 }
 

@@ -1,8 +1,8 @@
-// Connecting a machine and what it can do as a whole. Its axes are moved by the panel (jog_hand.h).
+// Connecting a machine and what it can do as a whole. Its axes are moved by the panel (hold_to_run_jog.h).
+#include "ui/actions/app_controller.h"
 #include "ui/actions/at_rest.h"
-#include "ui/actions/controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/machine_connection.h"
 
 namespace millwright::actions {
 
@@ -13,11 +13,11 @@ namespace {
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission can_connect(const Workbench& now) {
+Permission can_connect(const FrameState& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
-    switch (now.controller.link) {
+    switch (now.connection.link) {
     case LinkState::connecting:
         return Permission::refused("The machine is being connected.");
     case LinkState::connected:
@@ -30,55 +30,55 @@ Permission can_connect(const Workbench& now) {
     return {};
 }
 
-Permission is_connected(const Workbench& now) {
-    return now.controller.connected() ? Permission{} : Permission::refused("No machine is connected.");
+Permission is_connected(const FrameState& now) {
+    return now.connection.connected() ? Permission{} : Permission::refused("No machine is connected.");
 }
 
-Permission can_disconnect(const Workbench& now) {
+Permission can_disconnect(const FrameState& now) {
     return now.job.running ? Permission::refused("A job is running.") : is_connected(now);
 }
 
-Permission in_alarm(const Workbench& now) {
+Permission in_alarm(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
-    if (now.controller.status.link_lost) {
+    if (now.connection.status.link_lost) {
         return Permission::refused("The link is lost: reconnect first.");
     }
-    return now.controller.status.state == DriverState::alarm ? Permission{}
+    return now.connection.status.state == DriverState::alarm ? Permission{}
                                                              : Permission::refused("No alarm is active.");
 }
 
-Permission can_reconnect(const Workbench& now) {
+Permission can_reconnect(const FrameState& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
-    return now.controller.status.link_lost ? Permission{} : Permission::refused("The link is not lost.");
+    return now.connection.status.link_lost ? Permission{} : Permission::refused("The link is not lost.");
 }
 
-Permission can_home(const Workbench& now) {
+Permission can_home(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
     if (const Permission in_sight = seen(now); !in_sight.allowed) {
         return in_sight;
     }
-    if (!now.controller.can.home) {
-        const std::string_view why = now.controller.can.why_no_home;
+    if (!now.connection.can.home) {
+        const std::string_view why = now.connection.can.why_no_home;
         return Permission::refused(why.empty() ? "This machine cannot home." : std::string(why));
     }
-    if (now.controller.status.link_lost) {
+    if (now.connection.status.link_lost) {
         return Permission::refused("The link is lost: reconnect first.");
     }
-    const DriverState state = now.controller.status.state;
-    const std::string_view unlock_first = now.controller.row().why_no_home_in_alarm;
+    const DriverState state = now.connection.status.state;
+    const std::string_view unlock_first = now.connection.row().why_no_home_in_alarm;
     if (state == DriverState::alarm && !unlock_first.empty()) {
         return Permission::refused(std::string(unlock_first));
     }
-    if (!now.controller.status.powered) {
+    if (!now.connection.status.powered) {
         return Permission::refused("The motors have no power.");
     }
-    if (waits_for_tool(now.controller.status) && state == DriverState::holding) {
+    if (waits_for_tool(now.connection.status) && state == DriverState::holding) {
         return {};
     }
     const bool at_rest =
@@ -86,31 +86,31 @@ Permission can_home(const Workbench& now) {
     return at_rest && !now.job.running ? Permission{} : Permission::refused("The machine is moving.");
 }
 
-Permission can_trust(const Workbench& now) {
+Permission can_trust(const FrameState& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
-    if (now.controller.can.told_place) {
+    if (now.connection.can.told_place) {
         return Permission::refused("This machine does not report its position: enter it.");
     }
-    return now.controller.status.position_doubt.empty() ? Permission::refused("The position is not in doubt.")
+    return now.connection.status.position_doubt.empty() ? Permission::refused("The position is not in doubt.")
                                                         : Permission{};
 }
 
-Permission can_single(const Workbench& now) {
+Permission can_single(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
-    return now.controller.can.single_block
+    return now.connection.can.single_block
                ? Permission{}
                : Permission::refused("This machine cannot stop after each block.");
 }
 
-Permission can_arm(const Workbench& now) {
+Permission can_arm(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
-    return now.controller.can.jog ? Permission{} : Permission::refused("This machine cannot jog.");
+    return now.connection.can.jog ? Permission{} : Permission::refused("This machine cannot jog.");
 }
 
 void add_links(Actions& actions) {
@@ -122,7 +122,7 @@ void add_links(Actions& actions) {
          "",
          icons::plug},
         can_connect,
-        [](Hands& hands) { hands.workshop.connect(); });
+        [](ActionContext& context) { context.app.connect(); });
     add(actions,
         {"machine.disconnect",
          "Machine",
@@ -131,7 +131,7 @@ void add_links(Actions& actions) {
          "",
          icons::cancel},
         can_disconnect,
-        [](Hands& hands) { hands.workshop.controller().disconnect(); });
+        [](ActionContext& context) { context.app.connection().disconnect(); });
     add(actions,
         {"machine.reconnect",
          "Machine",
@@ -140,7 +140,7 @@ void add_links(Actions& actions) {
          "",
          icons::plug},
         can_reconnect,
-        [](Hands& hands) { hands.workshop.controller().reconnect(); });
+        [](ActionContext& context) { context.app.connection().reconnect(); });
 }
 
 void add_readiness(Actions& actions) {
@@ -152,7 +152,7 @@ void add_readiness(Actions& actions) {
          "",
          icons::unlock},
         in_alarm,
-        [](Hands& hands) { hands.workshop.controller().reset(); });
+        [](ActionContext& context) { context.app.connection().reset(); });
     add(actions,
         {"machine.trust_position",
          "Machine",
@@ -161,8 +161,8 @@ void add_readiness(Actions& actions) {
          "",
          icons::check},
         can_trust,
-        [](Hands& hands) {
-            hands.workshop.controller().tell([](drivers::Driver& driver) { driver.trust_position(); });
+        [](ActionContext& context) {
+            context.app.connection().tell([](drivers::Driver& driver) { driver.trust_position(); });
         });
     add(actions,
         {"machine.home",
@@ -172,8 +172,8 @@ void add_readiness(Actions& actions) {
          "",
          icons::home},
         can_home,
-        [](Hands& hands) {
-            hands.workshop.controller().tell([](drivers::Driver& driver) { driver.home(); });
+        [](ActionContext& context) {
+            context.app.connection().tell([](drivers::Driver& driver) { driver.home(); });
         });
 }
 
@@ -187,17 +187,16 @@ void add_hand_control(Actions& actions) {
          "",
          icons::step_forward},
         can_single,
-        [](Hands& hands) {
-            const bool on = !hands.session.hand.single_block;
-            if (hands.now.job.running) {
-                hands.jobs.set_single_block(on);
+        [](ActionContext& context) {
+            const bool on = !context.view_state.manual.single_block;
+            if (context.now.job.running) {
+                context.jobs.set_single_block(on);
             } else {
-                hands.workshop.controller().tell(
-                    [on](drivers::Driver& driver) { driver.set_single_block(on); });
+                context.app.connection().tell([on](drivers::Driver& driver) { driver.set_single_block(on); });
             }
-            hands.session.hand.single_block = on;
+            context.view_state.manual.single_block = on;
         },
-        [](const Workbench& now) { return now.session.hand.single_block; });
+        [](const FrameState& now) { return now.view_state.manual.single_block; });
     add(
         actions,
         {"machine.arm_keys",
@@ -207,8 +206,10 @@ void add_hand_control(Actions& actions) {
          "Ctrl+J",
          icons::keyboard},
         can_arm,
-        [](Hands& hands) { hands.session.hand.keys_armed = !hands.session.hand.keys_armed; },
-        [](const Workbench& now) { return now.session.hand.keys_armed; });
+        [](ActionContext& context) {
+            context.view_state.manual.keys_armed = !context.view_state.manual.keys_armed;
+        },
+        [](const FrameState& now) { return now.view_state.manual.keys_armed; });
     add(
         actions,
         {"machine.arm_gamepad",
@@ -219,8 +220,10 @@ void add_hand_control(Actions& actions) {
          "",
          icons::machine},
         can_arm,
-        [](Hands& hands) { hands.session.hand.pad_armed = !hands.session.hand.pad_armed; },
-        [](const Workbench& now) { return now.session.hand.pad_armed; });
+        [](ActionContext& context) {
+            context.view_state.manual.pad_armed = !context.view_state.manual.pad_armed;
+        },
+        [](const FrameState& now) { return now.view_state.manual.pad_armed; });
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include "core/project/gcode_file.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -9,48 +9,49 @@ namespace {
 
 using widgets::Permission;
 
-Permission is_leaving(const Workbench& now) {
+Permission is_leaving(const FrameState& now) {
     return now.leaving_to.empty() ? Permission::refused("No command is waiting for unsaved changes.")
                                   : Permission{};
 }
 
-Permission has_left_behind(const Workbench& now) {
+Permission has_left_behind(const FrameState& now) {
     return now.left_behind.empty() ? Permission::refused("There is no unsaved work to recover.")
                                    : Permission{};
 }
 
-Permission can_recover(const Workbench& now) {
+Permission can_recover(const FrameState& now) {
     if (const Permission found = has_left_behind(now); !found.allowed) {
         return found;
     }
     return now.left_behind.front().work() ? Permission{} : Permission::refused("The copy cannot be read.");
 }
 
-Permission is_replacing(const Workbench& now) {
-    return now.session.replacing ? Permission{} : Permission::refused("No file would be replaced.");
+Permission is_replacing(const FrameState& now) {
+    return now.view_state.replacing ? Permission{} : Permission::refused("No file would be replaced.");
 }
 
-Permission is_gouging(const Workbench& now) {
-    return now.session.gouges_asked ? Permission{} : Permission::refused("No program would be written.");
+Permission is_gouging(const FrameState& now) {
+    return now.view_state.gouges_asked ? Permission{} : Permission::refused("No program would be written.");
 }
 
-Permission can_reload(const Workbench& now) {
-    const auto& asked = now.session.replacing;
+Permission can_reload(const FrameState& now) {
+    const auto& asked = now.view_state.replacing;
     return asked && asked->what == ReplacedFile::project
                ? Permission{}
                : Permission::refused("No project was changed on disk.");
 }
 
-Permission is_quitting(const Workbench& now) {
-    return now.session.quit_wanted ? Permission{}
-                                   : Permission::refused("Neither a job nor an arm keeps Millwright open.");
+Permission is_quitting(const FrameState& now) {
+    return now.view_state.quit_wanted
+               ? Permission{}
+               : Permission::refused("Neither a job nor an arm keeps Millwright open.");
 }
 
-Permission has_broken_job(const Workbench& now) {
+Permission has_broken_job(const FrameState& now) {
     return now.broken_jobs->empty() ? Permission::refused("No job was interrupted.") : Permission{};
 }
 
-Permission can_continue(const Workbench& now) {
+Permission can_continue(const FrameState& now) {
     if (const Permission found = has_broken_job(now); !found.allowed) {
         return found;
     }
@@ -72,23 +73,23 @@ void add_file_answers(Actions& actions) {
     add(actions,
         {"unsaved.save", dialog_menu, "Save", "Saves the changes and continues.", "", ""},
         is_leaving,
-        [](Hands& hands) { hands.workshop.save_and_leave(); });
+        [](ActionContext& context) { context.app.save_and_leave(); });
     add(actions,
         {"unsaved.discard", dialog_menu, "Discard", "Continues without saving the changes.", "", ""},
         is_leaving,
-        [](Hands& hands) { hands.workshop.discard_and_leave(); });
+        [](ActionContext& context) { context.app.discard_and_leave(); });
     add(actions,
         {"unsaved.cancel", dialog_menu, "Cancel", "Nothing changes.", "", ""},
         is_leaving,
-        [](Hands& hands) { hands.workshop.stay(); });
+        [](ActionContext& context) { context.app.stay(); });
     add(actions,
         {"replace.overwrite", dialog_menu, "Replace", "The present content of the file is lost.", "", ""},
         is_replacing,
-        [](Hands& hands) { hands.workshop.replace(); });
+        [](ActionContext& context) { context.app.replace(); });
     add(actions,
         {"replace.elsewhere", dialog_menu, "Save as ...", "Asks for another file.", "", ""},
         is_replacing,
-        [](Hands& hands) { hands.workshop.write_elsewhere(); });
+        [](ActionContext& context) { context.app.write_elsewhere(); });
     add(actions,
         {"replace.reload",
          dialog_menu,
@@ -97,11 +98,11 @@ void add_file_answers(Actions& actions) {
          "",
          ""},
         can_reload,
-        [](Hands& hands) { hands.workshop.reload(); });
+        [](ActionContext& context) { context.app.reload(); });
     add(actions,
         {"replace.cancel", dialog_menu, "Cancel", "Nothing changes.", "", ""},
         is_replacing,
-        [](Hands& hands) { hands.workshop.keep_file(); });
+        [](ActionContext& context) { context.app.keep_file(); });
 }
 
 void add_gouge_answers(Actions& actions) {
@@ -113,11 +114,11 @@ void add_gouge_answers(Actions& actions) {
          "",
          ""},
         is_gouging,
-        [](Hands& hands) { hands.workshop.write_gouging_program(); });
+        [](ActionContext& context) { context.app.write_gouging_program(); });
     add(actions,
         {"gouges.cancel", dialog_menu, "Cancel", "No program is written.", "", ""},
         is_gouging,
-        [](Hands& hands) { hands.session.gouges_asked = false; });
+        [](ActionContext& context) { context.view_state.gouges_asked = false; });
     add(actions,
         {"gouges.show",
          dialog_menu,
@@ -126,16 +127,16 @@ void add_gouge_answers(Actions& actions) {
          "",
          ""},
         is_gouging,
-        [](Hands& hands) {
-            hands.session.gouges_asked = false;
-            hands.session.workspace = Workspace::toolpath;
-            hands.session.panes.lower_shown = true;
-            hands.session.lower_tab_now() = LowerTab::gouges;
+        [](ActionContext& context) {
+            context.view_state.gouges_asked = false;
+            context.view_state.workspace = Workspace::toolpath;
+            context.view_state.panes.lower_shown = true;
+            context.view_state.lower_tab_now() = LowerTab::gouges;
         });
     add(actions,
         {"running_job.stay", dialog_menu, "Stay open", "Everything continues.", "", ""},
         is_quitting,
-        [](Hands& hands) { hands.session.quit_wanted = false; });
+        [](ActionContext& context) { context.view_state.quit_wanted = false; });
     add(actions,
         {"running_job.stop",
          dialog_menu,
@@ -144,13 +145,13 @@ void add_gouge_answers(Actions& actions) {
          "",
          ""},
         is_quitting,
-        [](Hands& hands) {
-            hands.session.quit_wanted = false;
-            hands.jobs.stop();
-            if (arm_moves(hands.now.controller)) {
-                hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
+        [](ActionContext& context) {
+            context.view_state.quit_wanted = false;
+            context.jobs.stop();
+            if (arm_moves(context.now.connection)) {
+                context.app.connection().tell([](drivers::Driver& driver) { driver.stop(); });
             }
-            hands.workshop.quit();
+            context.app.quit();
         });
 }
 
@@ -163,15 +164,15 @@ void add_recovery_answers(Actions& actions) {
          "",
          ""},
         can_recover,
-        [](Hands& hands) { hands.workshop.recover(); });
+        [](ActionContext& context) { context.app.recover(); });
     add(actions,
         {"recovery.discard", dialog_menu, "Discard", "Deletes the copy permanently.", "", ""},
         has_left_behind,
-        [](Hands& hands) { hands.workshop.discard_left_behind(); });
+        [](ActionContext& context) { context.app.discard_left_behind(); });
     add(actions,
         {"recovery.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
         has_left_behind,
-        [](Hands& hands) { hands.workshop.leave_left_behind(); });
+        [](ActionContext& context) { context.app.leave_left_behind(); });
     add(actions,
         {"broken_job.continue",
          dialog_menu,
@@ -181,15 +182,15 @@ void add_recovery_answers(Actions& actions) {
          "",
          ""},
         can_continue,
-        [](Hands& hands) { hands.workshop.continue_broken_job(); });
+        [](ActionContext& context) { context.app.continue_broken_job(); });
     add(actions,
         {"broken_job.dismiss", dialog_menu, "Dismiss", "Does not ask again; the log is kept.", "", ""},
         has_broken_job,
-        [](Hands& hands) { hands.workshop.job_recovery().dismiss(); });
+        [](ActionContext& context) { context.app.job_recovery().dismiss(); });
     add(actions,
         {"broken_job.later", dialog_menu, "Later", "Asks again at the next start.", "", ""},
         has_broken_job,
-        [](Hands& hands) { hands.workshop.job_recovery().later(); });
+        [](ActionContext& context) { context.app.job_recovery().later(); });
 }
 
 } // namespace

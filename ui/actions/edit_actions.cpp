@@ -1,7 +1,7 @@
 #include "core/base/units.h"
 #include "core/project/joined_surface.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 #include "ui/viewport/symmetric_points.h"
 
 #include <fmt/format.h>
@@ -17,17 +17,18 @@ namespace {
 using viewport::ControlPointId;
 using widgets::Permission;
 
-Permission has_selection(const Workbench& now) {
-    return now.session.selected.empty() ? Permission::refused("No control point is selected.") : Permission{};
+Permission has_selection(const FrameState& now) {
+    return now.view_state.selected.empty() ? Permission::refused("No control point is selected.")
+                                           : Permission{};
 }
 
-void select_all(Hands& hands) {
-    hands.session.selected.clear();
-    const auto& patches = hands.now.project.surface.patches;
+void select_all(ActionContext& context) {
+    context.view_state.selected.clear();
+    const auto& patches = context.now.project.surface.patches;
     for (std::size_t p = 0; p < patches.size(); ++p) {
         for (int i = 0; i < patches[p].rows; ++i) {
             for (int j = 0; j < patches[p].columns; ++j) {
-                hands.session.selected.push_back({static_cast<geometry::PatchId>(p), i, j});
+                context.view_state.selected.push_back({static_cast<geometry::PatchId>(p), i, j});
             }
         }
     }
@@ -50,23 +51,24 @@ double mean_of_neighbours(const geometry::ControlNet& net, int i, int j) {
     return sum / count;
 }
 
-void smooth(Hands& hands) {
-    const auto before = hands.now.project.surface.patches;
+void smooth(ActionContext& context) {
+    const auto before = context.now.project.surface.patches;
     const auto net = [&](geometry::PatchId patch) -> const geometry::ControlNet& {
         return before[static_cast<std::size_t>(patch)];
     };
-    const std::vector<ControlPointId>& selected = hands.session.selected;
+    const std::vector<ControlPointId>& selected = context.view_state.selected;
     const auto change = [&](project::Project& draft) {
-        for (const auto& [id, share] : with_images(net, hands.session.symmetry, selected, selected.front())) {
+        for (const auto& [id, share] :
+             with_images(net, context.view_state.symmetry, selected, selected.front())) {
             const auto patch = static_cast<std::size_t>(id.patch);
             draft.surface.patches[patch].point(id.i, id.j).z() =
                 mean_of_neighbours(before[patch], id.i, id.j);
         }
     };
-    hands.workshop.edit("Smooth control points", change, {});
+    context.app.edit("Smooth control points", change, {});
 }
 
-Permission has_patches(const Workbench& now) {
+Permission has_patches(const FrameState& now) {
     return now.project.surface.patches.size() > 1 ? Permission{}
                                                   : Permission::refused("The surface has only one patch.");
 }
@@ -99,13 +101,13 @@ std::string open_text(const project::JoinedSurface& joined, double gap_mm) {
                                              project::open_text(joined.open));
 }
 
-void join(Hands& hands, geometry::Continuity continuity) {
-    const project::SurfaceInput& surface = hands.now.project.surface;
+void join(ActionContext& context, geometry::Continuity continuity) {
+    const project::SurfaceInput& surface = context.now.project.surface;
     const double gap_mm = project::usual_gap_mm(surface);
     const project::JoinedSurface joined = project::joined_surface(surface, continuity, gap_mm);
-    hands.workshop.edit(
+    context.app.edit(
         "Join the patches", [&](project::Project& draft) { draft.surface = joined.surface; }, {});
-    tell(hands.session,
+    tell(context.view_state,
          joined.open.empty() ? widgets::Severity::good : widgets::Severity::warning,
          fmt::format("{} {} joined: {}. Control points moved by at most {:.4f} mm.{}",
                      joined.seams.size(),
@@ -119,10 +121,10 @@ void add_history(Actions& actions) {
     add(
         actions,
         {"edit.undo", "Edit", "Undo", "Reverts the last change of the project.", "Ctrl+Z", icons::undo},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             return now.undo_title.empty() ? Permission::refused("There is nothing to undo.") : Permission{};
         },
-        [](Hands& hands) { hands.history.undo(); });
+        [](ActionContext& context) { context.history.undo(); });
     add(
         actions,
         {"edit.redo",
@@ -132,10 +134,10 @@ void add_history(Actions& actions) {
          "Ctrl+Y",
          icons::redo,
          "Ctrl+Shift+Z"},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             return now.redo_title.empty() ? Permission::refused("There is nothing to redo.") : Permission{};
         },
-        [](Hands& hands) { hands.history.redo(); });
+        [](ActionContext& context) { context.history.redo(); });
 }
 
 void add_selection(Actions& actions) {
@@ -151,7 +153,7 @@ void add_selection(Actions& actions) {
     add(actions,
         {"edit.select_none", "Edit", "Deselect all", "Clears the selection.", "Esc", ""},
         has_selection,
-        [](Hands& hands) { hands.session.selected.clear(); });
+        [](ActionContext& context) { context.view_state.selected.clear(); });
 }
 
 void add_joining(Actions& actions) {
@@ -172,7 +174,7 @@ void add_joining(Actions& actions) {
          "",
          ""},
         has_patches,
-        [](Hands& hands) { join(hands, geometry::Continuity::position); });
+        [](ActionContext& context) { join(context, geometry::Continuity::position); });
     add(actions,
         {"edit.join_tangent",
          "Edit",
@@ -181,7 +183,7 @@ void add_joining(Actions& actions) {
          "",
          ""},
         has_patches,
-        [](Hands& hands) { join(hands, geometry::Continuity::tangent); });
+        [](ActionContext& context) { join(context, geometry::Continuity::tangent); });
 }
 
 } // namespace

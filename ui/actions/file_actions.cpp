@@ -1,6 +1,6 @@
+#include "ui/actions/app_controller.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -10,19 +10,19 @@ namespace {
 
 using widgets::Permission;
 
-void ask_for(Hands& hands, FileQuestion question) {
-    hands.session.question = question;
+void ask_for(ActionContext& context, FilePrompt prompt) {
+    context.view_state.file_prompt = prompt;
 }
 
-void save(Hands& hands) {
-    if (hands.document.file.empty()) {
-        ask_for(hands, FileQuestion::save_as);
+void save(ActionContext& context) {
+    if (context.document.file.empty()) {
+        ask_for(context, FilePrompt::save_as);
         return;
     }
-    hands.workshop.save(std::filesystem::path(hands.document.file));
+    context.app.save(std::filesystem::path(context.document.file));
 }
 
-Permission has_listing(const Workbench& now) {
+Permission has_listing(const FrameState& now) {
     if (!now.listing()) {
         return Permission::refused("There is no program yet.");
     }
@@ -30,7 +30,7 @@ Permission has_listing(const Workbench& now) {
                                   : Permission::refused("The program is still being computed.");
 }
 
-Permission can_change_file(const Workbench& now) {
+Permission can_change_file(const FrameState& now) {
     if (!now.opened) {
         return Permission::refused("No G-code file is open.");
     }
@@ -46,9 +46,8 @@ void add_project_files(Actions& actions) {
          "Ctrl+N",
          icons::file},
         always,
-        [](Hands& hands) {
-            hands.workshop.leave("start a new project",
-                                 [](Workshop& workshop) { workshop.new_from_preset("dome"); });
+        [](ActionContext& context) {
+            context.app.leave("start a new project", [](AppController& app) { app.new_from_preset("dome"); });
         });
     add(actions,
         {"file.open",
@@ -59,7 +58,7 @@ void add_project_files(Actions& actions) {
          "Ctrl+O",
          icons::folder},
         always,
-        [](Hands& hands) { ask_for(hands, FileQuestion::open); });
+        [](ActionContext& context) { ask_for(context, FilePrompt::open); });
     add(actions,
         {"file.save",
          "File",
@@ -72,7 +71,7 @@ void add_project_files(Actions& actions) {
     add(actions,
         {"file.save_as", "File", "Save as ...", "Saves the project to another file.", "Ctrl+Shift+S", ""},
         always,
-        [](Hands& hands) { ask_for(hands, FileQuestion::save_as); });
+        [](ActionContext& context) { ask_for(context, FilePrompt::save_as); });
 }
 
 void add_program_files(Actions& actions) {
@@ -84,7 +83,7 @@ void add_program_files(Actions& actions) {
          "Ctrl+E",
          ""},
         has_listing,
-        [](Hands& hands) { hands.workshop.write_program(); });
+        [](ActionContext& context) { context.app.write_program(); });
     add(actions,
         {"file.read_again",
          "File",
@@ -93,7 +92,7 @@ void add_program_files(Actions& actions) {
          "",
          icons::redo},
         can_change_file,
-        [](Hands& hands) { hands.workshop.read_again(); });
+        [](ActionContext& context) { context.app.read_again(); });
     add(actions,
         {"file.close_program",
          "File",
@@ -102,7 +101,7 @@ void add_program_files(Actions& actions) {
          "Ctrl+W",
          ""},
         can_change_file,
-        [](Hands& hands) { hands.workshop.close_file(); });
+        [](ActionContext& context) { context.app.close_file(); });
 }
 
 } // namespace
@@ -121,11 +120,11 @@ void add_quit_action(Actions& actions) {
          "Ctrl+Q",
          ""},
         always,
-        [](Hands& hands) {
-            if (hands.now.job.running || arm_under_power(hands.now.controller)) {
-                hands.session.quit_wanted = true;
+        [](ActionContext& context) {
+            if (context.now.job.running || arm_under_power(context.now.connection)) {
+                context.view_state.quit_wanted = true;
             } else {
-                hands.workshop.quit();
+                context.app.quit();
             }
         });
 }

@@ -1,9 +1,9 @@
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/shown_grid.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -15,17 +15,17 @@ using project::GridMethod;
 using project::StrategyInput;
 using widgets::Permission;
 
-Permission has_surface(const Workbench& now) {
+Permission has_surface(const FrameState& now) {
     return now.evaluation(GridMethod::uniform)
                ? Permission{}
                : Permission::refused("The uniform grid has no path: " + now.failure());
 }
 
-Permission is_watched(const Workbench& now) {
+Permission is_watched(const FrameState& now) {
     return now.watched ? Permission{} : Permission::refused("No adaptation has been started.");
 }
 
-Permission can_adapt_further(const Workbench& now) {
+Permission can_adapt_further(const FrameState& now) {
     if (now.watched && now.watched->ended()) {
         return Permission::refused(now.watched->failed() ? "The adaptation has failed: Reset begins it anew."
                                                          : "The adaptation has ended: Reset begins it anew.");
@@ -33,53 +33,53 @@ Permission can_adapt_further(const Workbench& now) {
     return is_watched(now);
 }
 
-Permission is_adaptation_playing(const Workbench& now) {
+Permission is_adaptation_playing(const FrameState& now) {
     return now.watched && now.watched->playing ? Permission{}
                                                : Permission::refused("No adaptation is playing.");
 }
 
-template <GridMethod method> void start_adaptation(Hands& hands) {
-    hands.pipeline.start_adaptation(method);
-    hands.pipeline.play_adaptation();
-    hands.session.workspace = Workspace::grid;
-    if (hands.now.evaluation(method)) {
-        show_grid(hands.session, method);
+template <GridMethod method> void start_adaptation(ActionContext& context) {
+    context.pipeline.start_adaptation(method);
+    context.pipeline.play_adaptation();
+    context.view_state.workspace = Workspace::grid;
+    if (context.now.evaluation(method)) {
+        show_grid(context.view_state, method);
     } else { // what is watched only has no path, and the one that was watched before is not meant any more
-        show_program_path(hands.session, hands.now.project);
+        show_program_path(context.view_state, context.now.project);
     }
 }
 
-template <GridMethod method> bool is_chosen(const Workbench& now) {
+template <GridMethod method> bool is_chosen(const FrameState& now) {
     return now.project.grid.method == method;
 }
 
-template <GridMethod method> void choose(Hands& hands) {
-    hands.workshop.edit(
+template <GridMethod method> void choose(ActionContext& context) {
+    context.app.edit(
         "Choose the grid of the program", [](project::Project& draft) { draft.grid.method = method; }, {});
-    show_program_path(hands.session, hands.history.current());
+    show_program_path(context.view_state, context.history.current());
 }
 
 using viewport::SurfaceToolKind;
 
-template <SurfaceToolKind kind> bool is_in_hand(const Workbench& now) {
-    return now.session.surface_tool.kind == kind;
+template <SurfaceToolKind kind> bool is_in_hand(const FrameState& now) {
+    return now.view_state.surface_tool.kind == kind;
 }
 
 /// The brush shows what it paints.
-template <SurfaceToolKind kind> void take_in_hand(Hands& hands) {
-    Session& session = hands.session;
-    session.surface_tool.kind = kind;
-    session.surface_tool.draft.clear();
+template <SurfaceToolKind kind> void take_in_hand(ActionContext& context) {
+    ViewState& view_state = context.view_state;
+    view_state.surface_tool.kind = kind;
+    view_state.surface_tool.draft.clear();
     if (kind != SurfaceToolKind::none) {
-        session.workspace = Workspace::grid;
+        view_state.workspace = Workspace::grid;
     }
     if (kind == SurfaceToolKind::brush) {
-        session.layers_now().weight = true;
+        view_state.layers_now().weight = true;
     }
-    const project::Project& project = hands.now.project;
+    const project::Project& project = context.now.project;
     const bool counts = plan::uses_weight(plan::program_grid(project));
-    if (kind != SurfaceToolKind::none && !counts && !session.panes.inspector_shown) { // which says it, too
-        tell(session,
+    if (kind != SurfaceToolKind::none && !counts && !view_state.panes.inspector_shown) { // which says it, too
+        tell(view_state,
              widgets::Severity::warning,
              "The program's grid ignores brush and outline: they affect only the elliptic grid and the "
              "harmonic map.");
@@ -114,14 +114,14 @@ void add_tool_actions(Actions& actions) {
         is_in_hand<SurfaceToolKind::none>);
 }
 
-template <StrategyInput strategy> bool is_strategy(const Workbench& now) {
+template <StrategyInput strategy> bool is_strategy(const FrameState& now) {
     return now.project.toolpath.strategy == strategy;
 }
 
-template <StrategyInput strategy> void use(Hands& hands) {
-    hands.workshop.edit(
+template <StrategyInput strategy> void use(ActionContext& context) {
+    context.app.edit(
         "Choose the strategy", [](project::Project& draft) { draft.toolpath.strategy = strategy; }, {});
-    show_program_path(hands.session, hands.history.current());
+    show_program_path(context.view_state, context.history.current());
 }
 
 template <StrategyInput strategy> void add_use(Actions& actions, std::string_view id) {
@@ -189,11 +189,11 @@ void add_watched_adaptation(Actions& actions) {
     add(actions,
         {"grid.play", "Grid", "Play the adaptation", "Runs the adaptation continuously.", "", icons::play},
         can_adapt_further,
-        [](Hands& hands) { hands.pipeline.play_adaptation(); });
+        [](ActionContext& context) { context.pipeline.play_adaptation(); });
     add(actions,
         {"grid.pause", "Grid", "Pause the adaptation", "Stops after the present step.", "", icons::pause},
         is_adaptation_playing,
-        [](Hands& hands) { hands.pipeline.pause_adaptation(); });
+        [](ActionContext& context) { context.pipeline.pause_adaptation(); });
     add(actions,
         {"grid.step",
          "Grid",
@@ -202,7 +202,7 @@ void add_watched_adaptation(Actions& actions) {
          "",
          icons::step_forward},
         can_adapt_further,
-        [](Hands& hands) { hands.pipeline.step_adaptation(); });
+        [](ActionContext& context) { context.pipeline.step_adaptation(); });
     add(actions,
         {"grid.reset",
          "Grid",
@@ -211,7 +211,7 @@ void add_watched_adaptation(Actions& actions) {
          "",
          icons::reset},
         is_watched,
-        [](Hands& hands) { hands.pipeline.reset_adaptation(); });
+        [](ActionContext& context) { context.pipeline.reset_adaptation(); });
 }
 
 void add_grid_choice(Actions& actions) {
@@ -289,12 +289,12 @@ void add_cancel(Actions& actions) {
          "Stops the running computation.",
          "Ctrl+.",
          icons::cancel},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             return !now.activity.busy      ? Permission::refused("Nothing is running in the background.")
                    : now.activity.stopping ? Permission::refused("The work stops after the current step.")
                                            : Permission{};
         },
-        [](Hands& hands) { hands.workshop.cancel_work(); });
+        [](ActionContext& context) { context.app.cancel_work(); });
 }
 
 } // namespace

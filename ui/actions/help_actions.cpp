@@ -5,8 +5,8 @@ namespace millwright::actions {
 
 namespace {
 
-template <HelpPage page> void open(Hands& hands) {
-    hands.session.help = page;
+template <HelpPage page> void open(ActionContext& context) {
+    context.view_state.help = page;
 }
 
 } // namespace

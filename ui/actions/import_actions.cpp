@@ -1,7 +1,7 @@
 // Surfaces of other programs: bringing them in, and writing for them.
-#include "ui/actions/import_bench.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/pending_import.h"
 
 namespace millwright::actions {
 
@@ -9,11 +9,11 @@ namespace {
 
 using widgets::Permission;
 
-Permission is_importing(const Workbench& now) {
+Permission is_importing(const FrameState& now) {
     return now.import.is_open() ? Permission{} : Permission::refused("No surface is being imported.");
 }
 
-Permission can_take(const Workbench& now) {
+Permission can_take(const FrameState& now) {
     if (const Permission open = is_importing(now); !open.allowed) {
         return open;
     }
@@ -28,7 +28,7 @@ Permission can_take(const Workbench& now) {
                                                        : "Select a face first.");
 }
 
-Permission has_reference(const Workbench& now) {
+Permission has_reference(const FrameState& now) {
     return !now.import.is_open() && now.import.reference(now.project.surface)
                ? Permission{}
                : Permission::refused("There is no reference mesh.");
@@ -45,7 +45,7 @@ void add_import_actions(Actions& actions) {
          "Ctrl+I",
          ""},
         always,
-        [](Hands& hands) { hands.session.question = FileQuestion::import_surface; });
+        [](ActionContext& context) { context.view_state.file_prompt = FilePrompt::import_surface; });
     add(actions,
         {"file.export",
          "File",
@@ -54,7 +54,7 @@ void add_import_actions(Actions& actions) {
          "",
          ""},
         always,
-        [](Hands& hands) { hands.session.question = FileQuestion::export_surface; });
+        [](ActionContext& context) { context.view_state.file_prompt = FilePrompt::export_surface; });
     add(actions,
         {"file.drop_reference",
          "File",
@@ -63,17 +63,17 @@ void add_import_actions(Actions& actions) {
          "",
          ""},
         has_reference,
-        [](Hands& hands) { hands.workshop.import().drop_reference(); });
+        [](ActionContext& context) { context.app.import().drop_reference(); });
     add(actions,
         {"import.take", dialog_menu, "Import", "Replaces the project's surface; Undo restores it.", "", ""},
         can_take,
-        [](Hands& hands) { hands.workshop.take_import(); });
+        [](ActionContext& context) { context.app.take_import(); });
     add(actions,
         {"import.give_up", dialog_menu, "Cancel", "The project is not changed.", "", ""},
         is_importing,
-        [](Hands& hands) {
-            hands.workshop.import().close();
-            hands.session.fit_wanted_in(Workspace::design) = true;
+        [](ActionContext& context) {
+            context.app.import().close();
+            context.view_state.fit_wanted_in(Workspace::design) = true;
         });
 }
 

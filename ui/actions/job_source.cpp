@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/sentences.h"
-#include "ui/actions/workbench.h"
+#include "ui/actions/frame_state.h"
 
 #include <fmt/format.h>
 
@@ -16,23 +16,23 @@ namespace {
 using widgets::Permission;
 
 /// Nothing but the text is needed where the controller plans for itself.
-bool sends_text(const Workbench& now) {
-    return now.controller.connected() && now.controller.can.plans;
+bool sends_text(const FrameState& now) {
+    return now.connection.connected() && now.connection.can.plans;
 }
 
 /// Where it is to begin at a line, what comes before is known and was shown.
-Permission approach_ready(const Workbench& now) {
-    if (!now.session.begin.on) {
+Permission approach_ready(const FrameState& now) {
+    if (!now.view_state.start_at.on) {
         return {};
     }
-    if (!now.approach || !(now.approach->wish.begin == now.session.begin)) {
+    if (!now.approach || !(now.approach->wish.begin == now.view_state.start_at)) {
         return Permission::refused("The approach to the line is being computed.");
     }
     return now.approach->refusal ? Permission::refused(to_text(*now.approach->refusal)) : Permission{};
 }
 
 /// Letters of the axes that the shown program positions; empty where that is not known.
-std::string moved_axes(const Workbench& now) {
+std::string moved_axes(const FrameState& now) {
     if (now.in_file()) {
         return now.opened->motion ? now.opened->motion->moved_axes : "";
     }
@@ -94,7 +94,7 @@ Permission refused_for(const std::vector<Diagnostic>& faults) {
     return Permission::refused(first.place.file.empty() ? as_sentence(text) : with_full_stop(text));
 }
 
-Permission program_ready(const Workbench& now) {
+Permission program_ready(const FrameState& now) {
     if (now.in_file()) {
         if (!now.opened->finished || !now.opened->text) {
             return Permission::refused("The program is being read.");
@@ -106,7 +106,7 @@ Permission program_ready(const Workbench& now) {
             return {};
         }
         const bool real =
-            now.controller.connected() && now.controller.choice.driver != machine::virtual_driver;
+            now.connection.connected() && now.connection.choice.driver != machine::virtual_driver;
         if (real && !now.opened->unplaced.empty()) { // it has no work offsets of its own
             return Permission::refused(to_text(now.opened->unplaced.front()));
         }
@@ -123,9 +123,9 @@ Permission program_ready(const Workbench& now) {
                : Permission::refused("The program is still being computed.");
 }
 
-Permission axes_ready(const Workbench& now) {
-    const auto& axes = now.controller.axes;
-    if (!now.controller.connected() || axes.empty()) {
+Permission axes_ready(const FrameState& now) {
+    const auto& axes = now.connection.axes;
+    if (!now.connection.connected() || axes.empty()) {
         return {};
     }
     std::string missing, there;
@@ -145,17 +145,17 @@ Permission axes_ready(const Workbench& now) {
                                      listed(there) + ", or disconnect to run it on the virtual machine.");
 }
 
-Permission job_ready(const Workbench& now) {
+Permission job_ready(const FrameState& now) {
     const Permission program = program_ready(now);
     return program.allowed ? approach_ready(now) : program;
 }
 
-JobSource job_source(const Workbench& now) {
+JobSource job_source(const FrameState& now) {
     expects(program_ready(now).allowed, "there is a program");
     JobSource source;
     source.as_text = sends_text(now);
     if (source.as_text) {
-        source.tool_change = tool_change_plan(now.session.hand, now.controller);
+        source.tool_change = tool_change_plan(now.view_state.manual, now.connection);
     }
     source.machine = source.as_text ? nullptr : now.machine();
     if (now.in_file()) {
@@ -177,8 +177,8 @@ jobs::Job make_job(const JobSource& source) {
     return job;
 }
 
-jobs::Job wanted_job(const Workbench& now) {
-    return now.session.begin.on ? *now.approach->job : make_job(job_source(now));
+jobs::Job wanted_job(const FrameState& now) {
+    return now.view_state.start_at.on ? *now.approach->job : make_job(job_source(now));
 }
 
 } // namespace millwright::actions

@@ -15,7 +15,7 @@
 
 namespace millwright::actions {
 
-struct Workbench;
+struct FrameState;
 
 struct JobSource {
     std::shared_ptr<const plan::OpenedProgram> opened;       ///< a G-code file; null: the project's program
@@ -33,21 +33,21 @@ struct JobSource {
 [[nodiscard]] widgets::Permission refused_for(const std::vector<Diagnostic>& faults);
 
 /// Whether there is a program that can be sent to what is connected, else to a virtual machine.
-[[nodiscard]] widgets::Permission program_ready(const Workbench& now);
+[[nodiscard]] widgets::Permission program_ready(const FrameState& now);
 
 /// Whether what is connected has every axis that the program moves, as far as that is known before it is read
 /// for that machine. Else which are missing, and what would help.
-[[nodiscard]] widgets::Permission axes_ready(const Workbench& now);
+[[nodiscard]] widgets::Permission axes_ready(const FrameState& now);
 
 /// The same as program_ready(), and where it is to begin at a line, what comes before is known and was shown.
-[[nodiscard]] widgets::Permission job_ready(const Workbench& now);
+[[nodiscard]] widgets::Permission job_ready(const FrameState& now);
 
 /// Of what is shown. Only where program_ready() says yes.
-[[nodiscard]] JobSource job_source(const Workbench& now);
+[[nodiscard]] JobSource job_source(const FrameState& now);
 
 /// Takes the time to copy the text of a long program. Throws Error for a text without a block.
 [[nodiscard]] jobs::Job make_job(const JobSource& source);
 /// Of what is shown, from the line where it is to begin. Only where job_ready() says yes.
-[[nodiscard]] jobs::Job wanted_job(const Workbench& now);
+[[nodiscard]] jobs::Job wanted_job(const FrameState& now);
 
 } // namespace millwright::actions

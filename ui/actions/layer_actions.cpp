@@ -14,12 +14,12 @@ public:
         : which_(which), id_(layer_action(which)), info_{id_, "Layers", which.title, which.tip, "", ""} {}
 
     [[nodiscard]] const ActionInfo& info() const override { return info_; }
-    [[nodiscard]] widgets::Permission permission(const Workbench&) const override { return {}; }
-    [[nodiscard]] bool is_on(const Workbench& now) const override {
-        return now.session.layers_now().*which_.shown;
+    [[nodiscard]] widgets::Permission permission(const FrameState&) const override { return {}; }
+    [[nodiscard]] bool is_on(const FrameState& now) const override {
+        return now.view_state.layers_now().*which_.shown;
     }
-    void run(Hands& hands) const override {
-        viewport::Layers& layers = hands.session.layers_now();
+    void run(ActionContext& context) const override {
+        viewport::Layers& layers = context.view_state.layers_now();
         layers = viewport::switched(layers, which_);
     }
 
@@ -47,9 +47,9 @@ void add_layer_actions(Actions& actions) {
          "",
          widgets::icons::reset},
         always,
-        [](Hands& hands) {
-            hands.session.layers_now() =
-                new_session().layers[static_cast<std::size_t>(hands.session.workspace)];
+        [](ActionContext& context) {
+            context.view_state.layers_now() =
+                new_view_state().layers[static_cast<std::size_t>(context.view_state.workspace)];
         });
 }
 

@@ -10,7 +10,7 @@ namespace millwright::actions {
 /// The id of the action that switches a layer: "view.layer_control_net".
 [[nodiscard]] std::string layer_action(const viewport::LayerSwitch& which);
 
-/// The one that shows the layers of new_session() again.
+/// The one that shows the layers of new_view_state() again.
 inline constexpr std::string_view usual_layers_action = "view.usual_layers";
 
 } // namespace millwright::actions

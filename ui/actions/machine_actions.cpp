@@ -3,13 +3,13 @@
 #include "core/jobs/box_trace.h"
 #include "core/jobs/job_queue.h"
 #include "core/jobs/tool_check.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/app_controller.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/run_check.h"
-#include "ui/actions/start_question.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/start_prompt.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -27,8 +27,8 @@ namespace {
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission machine_ready(const Workbench& now) {
-    switch (now.controller.link) {
+Permission machine_ready(const FrameState& now) {
+    switch (now.connection.link) {
     case LinkState::none:
         return {};
     case LinkState::connecting:
@@ -40,42 +40,42 @@ Permission machine_ready(const Workbench& now) {
     if (now.arm_connected()) {
         return Permission::refused("A PMAC runs motion programs in its own language, not G-code.");
     }
-    return at_rest(now.controller);
+    return at_rest(now.connection);
 }
 
 /// A line in the middle is gone to by what the controller takes for its position; a machine that is told
 /// where it stands goes everywhere by that.
-Permission position_ready(const Workbench& now, int from_line) {
-    const std::string& doubt = now.controller.status.position_doubt;
-    if (now.controller.connected() && now.controller.can.told_place) {
-        const bool assumed = from_line > 1 && !now.controller.status.position_known;
+Permission position_ready(const FrameState& now, int from_line) {
+    const std::string& doubt = now.connection.status.position_doubt;
+    if (now.connection.connected() && now.connection.can.told_place) {
+        const bool assumed = from_line > 1 && !now.connection.status.position_known;
         return assumed || !doubt.empty()
                    ? Permission::refused(
                          "The machine does not report its position: read it at the machine and enter it.")
                    : Permission{};
     }
     const bool wrong =
-        now.controller.connected() &&
+        now.connection.connected() &&
         (from_line > 1 ? !doubt.empty()
-                       : drivers::needs_confirmation(now.controller.status, now.controller.offsets));
+                       : drivers::needs_confirmation(now.connection.status, now.connection.offsets));
     return wrong ? Permission::refused(drivers::doubt_sentence(doubt) +
                                        " Or confirm that the reported position is correct.")
                  : Permission{};
 }
 
 /// Those inside this program are run without a question.
-bool moves_a_machine(const Workbench& now) {
-    return now.controller.connected() && now.controller.row().kind != machine::MachineKind::simulated;
+bool moves_a_machine(const FrameState& now) {
+    return now.connection.connected() && now.connection.row().kind != machine::MachineKind::simulated;
 }
 
-Permission nothing_asked(const Workbench& now) {
+Permission nothing_asked(const FrameState& now) {
     return now.asks() ? Permission::refused("A prompt in the window is waiting for your answer.")
                       : Permission{};
 }
 
-Permission can_run_job(const Workbench& now) {
+Permission can_run_job(const FrameState& now) {
     if (const Permission free = nothing_asked(now);
-        !free.allowed || now.session.workspace != Workspace::machine) {
+        !free.allowed || now.view_state.workspace != Workspace::machine) {
         return free; // from elsewhere it only goes to the machine, where the reason stands if it cannot
     }
     if (now.job.running) {
@@ -87,124 +87,126 @@ Permission can_run_job(const Workbench& now) {
     const Permission machine = machine_ready(now);
     const Permission ready = machine.allowed ? axes_ready(now) : machine;
     const Permission checked = ready.allowed ? run_check_passed(now) : ready;
-    return checked.allowed ? position_ready(now, now.session.begin.on ? now.session.begin.line : 1) : checked;
+    return checked.allowed
+               ? position_ready(now, now.view_state.start_at.on ? now.view_state.start_at.line : 1)
+               : checked;
 }
 
-template <DriverState state> Permission driver_is(const Workbench& now) {
+template <DriverState state> Permission driver_is(const FrameState& now) {
     const bool is = now.job.running && now.job.report && now.job.report->driver.state == state;
     return is ? Permission{}
               : Permission::refused(state == DriverState::running ? "No job is moving." : "No job is held.");
 }
 
 /// A program that runs without a job, as an arm's.
-bool plays(const Workbench& now, DriverState state) {
-    return now.controller.connected() && !now.job.running && now.controller.status.state == state &&
-           now.controller.status.activity == drivers::Activity::program;
+bool plays(const FrameState& now, DriverState state) {
+    return now.connection.connected() && !now.job.running && now.connection.status.state == state &&
+           now.connection.status.activity == drivers::Activity::program;
 }
 
 /// Points of a plot that are played to a table, while no other machine moves.
-bool table_plays(const Workbench& now) {
+bool table_plays(const FrameState& now) {
     return !now.job.running && now.plot.table().playing();
 }
 
-bool table_plays(const Workbench& now, DriverState state) {
+bool table_plays(const FrameState& now, DriverState state) {
     const drivers::PlayState wanted =
         state == DriverState::holding ? drivers::PlayState::holding : drivers::PlayState::playing;
     return table_plays(now) && now.plot.table().view().status.state == wanted;
 }
 
-template <DriverState state> Permission moves_in(const Workbench& now) {
+template <DriverState state> Permission moves_in(const FrameState& now) {
     return plays(now, state) || table_plays(now, state) ? Permission{} : driver_is<state>(now);
 }
 
-void hold(Hands& hands) {
-    if (hands.now.job.running) {
-        hands.jobs.hold();
-    } else if (table_plays(hands.now)) {
-        hands.workshop.plot().table().hold();
+void hold(ActionContext& context) {
+    if (context.now.job.running) {
+        context.jobs.hold();
+    } else if (table_plays(context.now)) {
+        context.app.plot().table().hold();
     } else {
-        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.hold(); });
+        context.app.connection().tell([](drivers::Driver& driver) { driver.hold(); });
     }
 }
 
-void resume(Hands& hands) {
-    if (hands.now.job.running) {
-        hands.jobs.resume();
-    } else if (table_plays(hands.now)) {
-        hands.workshop.plot().table().resume();
+void resume(ActionContext& context) {
+    if (context.now.job.running) {
+        context.jobs.resume();
+    } else if (table_plays(context.now)) {
+        context.app.plot().table().resume();
     } else {
-        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.resume(); });
+        context.app.connection().tell([](drivers::Driver& driver) { driver.resume(); });
     }
 }
 
 /// A job, or what a person has told the machine to do by hand.
-Permission can_stop(const Workbench& now) {
-    const DriverState state = now.controller.status.state;
+Permission can_stop(const FrameState& now) {
+    const DriverState state = now.connection.status.state;
     const bool by_hand =
-        now.controller.connected() && (state == DriverState::running || state == DriverState::holding);
+        now.connection.connected() && (state == DriverState::running || state == DriverState::holding);
     if (now.job.running || by_hand || now.arm.works_out_path_motion() || table_plays(now)) {
         return {};
     }
-    const bool stops = now.controller.connected() && state == DriverState::stopping;
+    const bool stops = now.connection.connected() && state == DriverState::stopping;
     return Permission::refused(stops ? "The machine is already stopping." : "Nothing is moving.");
 }
 
-void stop(Hands& hands) {
-    hands.workshop.arm().call_off_path_motion();
-    if (table_plays(hands.now)) {
-        hands.workshop.plot().table().stop();
+void stop(ActionContext& context) {
+    context.app.arm().call_off_path_motion();
+    if (table_plays(context.now)) {
+        context.app.plot().table().stop();
     }
-    if (hands.now.job.running) {
-        hands.jobs.stop();
-    } else if (hands.now.controller.connected()) {
-        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
+    if (context.now.job.running) {
+        context.jobs.stop();
+    } else if (context.now.connection.connected()) {
+        context.app.connection().tell([](drivers::Driver& driver) { driver.stop(); });
     }
 }
 
 /// As they are set for the machine that is connected; of a job of the queue, too.
-void make_tool_changes(const Workbench& now, jobs::Job& job) {
+void make_tool_changes(const FrameState& now, jobs::Job& job) {
     if (!job.tool_change && job.program == nullptr) {
-        job.tool_change = tool_change_plan(now.session.hand, now.controller);
+        job.tool_change = tool_change_plan(now.view_state.manual, now.connection);
     }
     read_macro(job);
 }
 
 /// On what is connected, else on a virtual machine.
-void start_job(Hands& hands, jobs::Job job, const JobRunner::Ended& ended = {}) {
+void start_job(ActionContext& context, jobs::Job job, const JobRunner::Ended& ended = {}) {
     job.started_at = fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
-    hands.session.playback.playing = false;
-    hands.session.file.step.reset();
-    hands.session.begin = {};
-    if (auto driver = hands.workshop.controller().driver()) {
-        make_tool_changes(hands.now, job);
+    context.view_state.playback.playing = false;
+    context.view_state.file.step.reset();
+    context.view_state.start_at = {};
+    if (auto driver = context.app.connection().driver()) {
+        make_tool_changes(context.now, job);
         driver->check(*job.listing, job.project);
-        hands.jobs.start(std::move(job), std::move(driver), ended);
+        context.jobs.start(std::move(job), std::move(driver), ended);
     } else {
-        hands.jobs.start(std::move(job), hands.session.machine_speed, ended);
+        context.jobs.start(std::move(job), context.view_state.machine_speed, ended);
     }
 }
 
 /// The program has to be there when the window is opened again.
-Permission can_add(const Workbench& now) {
+Permission can_add(const FrameState& now) {
     if (!now.in_file() && (now.document.file.empty() || now.changed())) {
         return Permission::refused("Save the project first: a queued job is read from its file.");
     }
     return job_ready(now);
 }
 
-void add_to_queue(Hands& hands) {
-    (void)hands.workshop.queue().open().add(wanted_job(hands.now));
-    hands.session.begin = {};
+void add_to_queue(ActionContext& context) {
+    (void)context.app.queue().open().add(wanted_job(context.now));
+    context.view_state.start_at = {};
 }
 
 /// A job is made for a controller that plans for itself, or for a machine that is moved here.
-Permission suits_machine(const Workbench& now, const jobs::QueuedJob& job) {
+Permission suits_machine(const FrameState& now, const jobs::QueuedJob& job) {
     if (!job.has_program) {
         return Permission::refused(
             job.name +
             " was added before Millwright was restarted: \u201cOpen program\u201d reads it again.");
     }
-    const bool needs_motion = !(now.controller.connected() && now.controller.can.plans);
+    const bool needs_motion = !(now.connection.connected() && now.connection.can.plans);
     return needs_motion == job.has_motion
                ? Permission{}
                : Permission::refused(job.name + " was added for another type of machine: \u201cOpen "
@@ -212,33 +214,33 @@ Permission suits_machine(const Workbench& now, const jobs::QueuedJob& job) {
 }
 
 /// Of the project's program; nothing is known of any other.
-std::string gouges_of(const Workbench& now, const jobs::Job& job) {
+std::string gouges_of(const FrameState& now, const jobs::Job& job) {
     const auto own = now.listing();
     const bool is_own = own && job.listing && own->text == job.listing->text;
     return is_own ? now.gouge_warning() : std::string();
 }
 
-void ask_to_start(Hands& hands, jobs::Job job, std::optional<jobs::QueuedJobId> queued) {
+void ask_to_start(ActionContext& context, jobs::Job job, std::optional<jobs::QueuedJobId> queued) {
     const std::string gouges =
-        !queued && !hands.now.in_file() ? hands.now.gouge_warning() : gouges_of(hands.now, job);
-    make_tool_changes(hands.now, job);
-    StartWish wish = start_wish(std::move(job), queued, hands.now.controller);
+        !queued && !context.now.in_file() ? context.now.gouge_warning() : gouges_of(context.now, job);
+    make_tool_changes(context.now, job);
+    StartWish wish = start_wish(std::move(job), queued, context.now.connection);
     wish.gouges = gouges;
-    hands.workshop.ask_to_start(std::move(wish));
+    context.app.ask_to_start(std::move(wish));
 }
 
 /// From another workspace a key or a command only goes to the machine, so that nothing moves out of sight.
-void run_shown(Hands& hands) {
-    if (hands.session.workspace != Workspace::machine) {
-        hands.session.workspace = Workspace::machine;
-    } else if (moves_a_machine(hands.now)) {
-        ask_to_start(hands, wanted_job(hands.now), {});
+void run_shown(ActionContext& context) {
+    if (context.view_state.workspace != Workspace::machine) {
+        context.view_state.workspace = Workspace::machine;
+    } else if (moves_a_machine(context.now)) {
+        ask_to_start(context, wanted_job(context.now), {});
     } else {
-        start_job(hands, wanted_job(hands.now));
+        start_job(context, wanted_job(context.now));
     }
 }
 
-Permission can_run_next(const Workbench& now) {
+Permission can_run_next(const FrameState& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
@@ -261,36 +263,36 @@ Permission can_run_next(const Workbench& now) {
 }
 
 /// The queue hears how it ends; what keeps it from starting holds the queue, too.
-void begin_queued(Hands& hands, jobs::QueuedJobId id) {
-    StoredQueue& stored = hands.workshop.queue();
+void begin_queued(ActionContext& context, jobs::QueuedJobId id) {
+    StoredQueue& stored = context.app.queue();
     jobs::JobQueue& queue = stored.open();
     jobs::Job job = queue.begin(id);
     try {
-        start_job(hands, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
+        start_job(context, std::move(job), [&stored](const JobEnding& ending) { stored.enter(ending); });
     } catch (const Error& error) {
         queue.failed(error.what());
         throw;
     }
 }
 
-void run_next(Hands& hands) {
-    if (hands.session.workspace != Workspace::machine) {
-        hands.session.workspace = Workspace::machine;
-        hands.session.lower_tab_now() = LowerTab::queue;
+void run_next(ActionContext& context) {
+    if (context.view_state.workspace != Workspace::machine) {
+        context.view_state.workspace = Workspace::machine;
+        context.view_state.lower_tab_now() = LowerTab::queue;
         return;
     }
-    jobs::JobQueue& queue = hands.workshop.queue().open();
+    jobs::JobQueue& queue = context.app.queue().open();
     const jobs::QueuedJobId id = queue.next().value().id;
-    if (!moves_a_machine(hands.now)) {
-        begin_queued(hands, id);
+    if (!moves_a_machine(context.now)) {
+        begin_queued(context, id);
     } else if (const auto job = queue.program_of(id)) {
-        ask_to_start(hands, *job, id);
+        ask_to_start(context, *job, id);
     }
 }
 
 /// What was asked may have come to nothing meanwhile: the link, the machine's state, its position.
-Permission can_start(const Workbench& now) {
-    if (!now.session.start) {
+Permission can_start(const FrameState& now) {
+    if (!now.view_state.start) {
         return Permission::refused("No job is waiting to be started.");
     }
     if (!moves_a_machine(now)) {
@@ -299,70 +301,72 @@ Permission can_start(const Workbench& now) {
     if (now.job.running) {
         return Permission::refused("A job is running.");
     }
-    if (!now.start_check || now.start_check->wish != now.session.start) {
+    if (!now.start_check || now.start_check->wish != now.view_state.start) {
         return Permission::refused("The program is being checked.");
     }
     if (!now.start_check->faults.empty()) {
         return Permission::refused(to_text(now.start_check->faults.front()));
     }
     const Permission ready = machine_ready(now);
-    return ready.allowed ? position_ready(now, now.session.start->job->from_line) : ready;
+    return ready.allowed ? position_ready(now, now.view_state.start->job->from_line) : ready;
 }
 
-void start_asked(Hands& hands) {
-    const auto wish = std::exchange(hands.session.start, nullptr);
+void start_asked(ActionContext& context) {
+    const auto wish = std::exchange(context.view_state.start, nullptr);
     if (wish->queued) {
-        begin_queued(hands, *wish->queued);
+        begin_queued(context, *wish->queued);
     } else {
-        start_job(hands, *wish->job);
+        start_job(context, *wish->job);
     }
 }
 
-Permission can_check_there(const Workbench& now) {
-    const bool reads = now.session.start && now.session.start->job->listing && now.controller.can.check_mode;
+Permission can_check_there(const FrameState& now) {
+    const bool reads =
+        now.view_state.start && now.view_state.start->job->listing && now.connection.can.check_mode;
     return reads ? machine_ready(now) : Permission::refused("This controller has no check mode.");
 }
 
-void check_there(Hands& hands) {
-    hands.workshop.controller().tell([&hands](drivers::Driver& driver) {
-        const jobs::Job& job = *hands.session.start->job;
+void check_there(ActionContext& context) {
+    context.app.connection().tell([&context](drivers::Driver& driver) {
+        const jobs::Job& job = *context.view_state.start->job;
         const jobs::Job read = jobs::text_job(jobs::controller_text(job), job.project);
-        hands.session.start_answer = driver.check_there(job.tool_change ? *read.listing : *job.listing);
+        context.view_state.start_answer = driver.check_there(job.tool_change ? *read.listing : *job.listing);
     });
 }
 
-Permission can_trace(const Workbench& now) {
-    return now.controller.can.plans && now.controller.can.dialect
+Permission can_trace(const FrameState& now) {
+    return now.connection.can.plans && now.connection.can.dialect
                ? can_start(now)
                : Permission::refused("This controller does not execute G-code itself.");
 }
 
 /// The job stays as it is: it is asked for again afterwards.
-void trace_box(Hands& hands) {
-    jobs::Job trace = jobs::box_trace_job(*hands.session.start->job, hands.now.start_check->survey);
-    hands.session.start.reset();
-    start_job(hands, std::move(trace));
+void trace_box(ActionContext& context) {
+    jobs::Job trace =
+        jobs::box_trace_job(*context.view_state.start->job, context.now.start_check->program_check);
+    context.view_state.start.reset();
+    start_job(context, std::move(trace));
 }
 
-void leave_start(Hands& hands) {
-    const drivers::CommandAnswer& answer = hands.now.controller.status.answer;
-    if (answer.number == hands.session.start_answer &&
+void leave_start(ActionContext& context) {
+    const drivers::CommandAnswer& answer = context.now.connection.status.answer;
+    if (answer.number == context.view_state.start_answer &&
         answer.state == drivers::CommandAnswer::State::pending) {
-        hands.workshop.controller().tell([](drivers::Driver& driver) { driver.stop(); });
+        context.app.connection().tell([](drivers::Driver& driver) { driver.stop(); });
     }
-    hands.session.start.reset();
+    context.view_state.start.reset();
 }
 
-Permission can_stop_at_once(const Workbench& now) {
-    const bool moves = now.job.running || now.controller.connected() || now.plot.table().playing();
+Permission can_stop_at_once(const FrameState& now) {
+    const bool moves = now.job.running || now.connection.connected() || now.plot.table().playing();
     return moves ? Permission{} : Permission::refused("No machine is connected.");
 }
 
-void stop_at_once(Hands& hands) {
-    hands.workshop.arm().call_off_path_motion();
-    hands.workshop.plot().table().emergency_stop();
-    hands.workshop.controller().emergency_stop();
-    hands.jobs.emergency_stop();
+void stop_at_once(ActionContext& context) {
+    context.app.arm().call_off_path_motion();
+    context.app.plot().table().emergency_stop();
+    context.app.connection().emergency_stop();
+    context.jobs.emergency_stop();
 }
 
 } // namespace
@@ -394,12 +398,12 @@ void add_queue_actions(Actions& actions) {
          "Removes finished jobs from the queue; their logs are kept.",
          "",
          icons::cancel},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             const bool any = std::ranges::any_of(
                 now.queue, [](const jobs::QueuedJob& job) { return job.state == jobs::QueueState::done; });
             return any ? Permission{} : Permission::refused("No job is finished.");
         },
-        [](Hands& hands) { hands.workshop.queue().open().remove_done(); });
+        [](ActionContext& context) { context.app.queue().open().remove_done(); });
 }
 
 namespace {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/pmac/driver/pmac_file.h"
-#include "ui/actions/controller.h"
-#include "ui/actions/session.h"
+#include "ui/actions/machine_connection.h"
+#include "ui/actions/view_state.h"
 
 #include <memory>
 #include <optional>
@@ -16,17 +16,18 @@ namespace millwright::actions {
 class MachineNews {
 public:
     /// Once a frame. `driver`: null unless one is connected.
-    void
-    follow(const ControllerView& machine, const std::shared_ptr<drivers::Driver>& driver, Session& session);
+    void follow(const ConnectionView& machine,
+                const std::shared_ptr<drivers::Driver>& driver,
+                ViewState& view_state);
     /// A file of settings went to the card, whose answer has the number `answer`.
     void sent(int answer, pmac::PmacFile file);
     /// Of the connected card, a sentence for each; as it told last.
     [[nodiscard]] const std::vector<std::string>& protections_off() const { return protections_off_; }
 
 private:
-    void log_messages(const ControllerView& machine, Session& session);
-    void tell_protections(const std::shared_ptr<drivers::Driver>& driver, Session& session);
-    void tell_answer(const ControllerView& machine, Session& session);
+    void log_messages(const ConnectionView& machine, ViewState& view_state);
+    void tell_protections(const std::shared_ptr<drivers::Driver>& driver, ViewState& view_state);
+    void tell_answer(const ConnectionView& machine, ViewState& view_state);
 
     struct SentFile {
         int answer = 0;

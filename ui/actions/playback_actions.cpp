@@ -10,18 +10,18 @@ namespace {
 
 using widgets::Permission;
 
-Permission can_play_program(const Workbench& now) {
+Permission can_play_program(const FrameState& now) {
     if (now.job.running) {
         return Permission::refused("The view follows the running job.");
     }
-    if (now.session.hand.keys_armed && now.session.workspace == Workspace::machine) {
+    if (now.view_state.manual.keys_armed && now.view_state.workspace == Workspace::machine) {
         return Permission::refused("The arrow keys jog the machine.");
     }
     return now.duration() > 0.0 || now.file_place() ? Permission{}
                                                     : Permission::refused("There is no program yet.");
 }
 
-Permission can_step_lines(const Workbench& now) {
+Permission can_step_lines(const FrameState& now) {
     const Permission playing = can_play_program(now);
     if (!playing.allowed) {
         return playing;
@@ -36,41 +36,41 @@ bool is_editor(LowerTab tab) {
 }
 
 /// The listing of the Program workspace, or an editor of the arm or the processor.
-Permission has_text(const Workbench& now) {
-    const bool editor = now.session.panes.lower_shown && is_editor(now.session.lower_tab_now());
-    return editor || now.session.workspace == Workspace::program
+Permission has_text(const FrameState& now) {
+    const bool editor = now.view_state.panes.lower_shown && is_editor(now.view_state.lower_tab_now());
+    return editor || now.view_state.workspace == Workspace::program
                ? Permission{}
                : Permission::refused("Search is available in the Program workspace, and in the editors of "
                                      "the Arm and Processor workspaces.");
 }
 
-void go_to(Hands& hands, gcode::Step step) {
-    hands.session.playback.playing = false;
-    hands.session.playback.time = time_of(*hands.now.opened, step);
-    hands.session.file.step = step;
+void go_to(ActionContext& context, gcode::Step step) {
+    context.view_state.playback.playing = false;
+    context.view_state.playback.time = time_of(*context.now.opened, step);
+    context.view_state.file.step = step;
 }
 
 /// To the line that is executed next, or was before.
-template <int direction> void step_line(Hands& hands) {
-    const gcode::Step now = hands.now.file_place()->step;
-    const gcode::Step last = hands.now.opened->execution->count() - 1;
+template <int direction> void step_line(ActionContext& context) {
+    const gcode::Step now = context.now.file_place()->step;
+    const gcode::Step last = context.now.opened->execution->count() - 1;
     const bool stays = direction > 0 ? now == last : now == 0;
-    go_to(hands, stays ? now : now + static_cast<gcode::Step>(direction));
+    go_to(context, stays ? now : now + static_cast<gcode::Step>(direction));
 }
 
-void step_file(Hands& hands, int direction) {
-    if (const auto next = moving_step(*hands.now.opened, hands.now.file_place()->step, direction)) {
-        go_to(hands, *next);
+void step_file(ActionContext& context, int direction) {
+    if (const auto next = moving_step(*context.now.opened, context.now.file_place()->step, direction)) {
+        go_to(context, *next);
     }
 }
 
 /// To the start of the next (or this, or the previous) block that takes time.
-void step(Hands& hands, int direction) {
-    if (hands.now.in_file()) {
-        return step_file(hands, direction);
+void step(ActionContext& context, int direction) {
+    if (context.now.in_file()) {
+        return step_file(context, direction);
     }
-    const auto trajectory = hands.now.trajectory();
-    Playback& playback = hands.session.playback;
+    const auto trajectory = context.now.trajectory();
+    Playback& playback = context.view_state.playback;
     playback.playing = false;
     constexpr double at_start = 1e-9; // s: standing at the start of a block, not inside it
     const int now = trajectory->block_at(playback.time);
@@ -88,17 +88,17 @@ void step(Hands& hands, int direction) {
     playback.time = direction < 0 ? 0.0 : trajectory->duration();
 }
 
-void play(Hands& hands) {
-    Playback& playback = hands.session.playback;
-    const bool at_end = playback.time >= hands.now.duration();
+void play(ActionContext& context) {
+    Playback& playback = context.view_state.playback;
+    const bool at_end = playback.time >= context.now.duration();
     playback.time = at_end ? 0.0 : playback.time;
     playback.playing = true;
 }
 
-void jump(Hands& hands, double time) {
-    hands.session.playback.playing = false;
-    hands.session.playback.time = time;
-    hands.session.file.step.reset();
+void jump(ActionContext& context, double time) {
+    context.view_state.playback.playing = false;
+    context.view_state.playback.time = time;
+    context.view_state.file.step.reset();
 }
 
 void add_play(Actions& actions) {
@@ -110,11 +110,11 @@ void add_play(Actions& actions) {
          "Space",
          icons::play},
         can_play_program,
-        [](Hands& hands) {
-            if (hands.session.playback.playing) {
-                hands.session.playback.playing = false;
+        [](ActionContext& context) {
+            if (context.view_state.playback.playing) {
+                context.view_state.playback.playing = false;
             } else {
-                play(hands);
+                play(context);
             }
         });
     add(actions,
@@ -125,7 +125,7 @@ void add_play(Actions& actions) {
          "Right",
          icons::step_forward},
         can_play_program,
-        [](Hands& hands) { step(hands, 1); });
+        [](ActionContext& context) { step(context, 1); });
     add(actions,
         {"play.back",
          "Step-through",
@@ -134,7 +134,7 @@ void add_play(Actions& actions) {
          "Left",
          icons::step_back},
         can_play_program,
-        [](Hands& hands) { step(hands, -1); });
+        [](ActionContext& context) { step(context, -1); });
     add(actions,
         {"play.first",
          "Step-through",
@@ -143,7 +143,7 @@ void add_play(Actions& actions) {
          "Ctrl+Left",
          icons::skip_first},
         can_play_program,
-        [](Hands& hands) { jump(hands, 0.0); });
+        [](ActionContext& context) { jump(context, 0.0); });
     add(actions,
         {"play.last",
          "Step-through",
@@ -152,7 +152,7 @@ void add_play(Actions& actions) {
          "Ctrl+Right",
          icons::skip_last},
         can_play_program,
-        [](Hands& hands) { jump(hands, hands.now.duration()); });
+        [](ActionContext& context) { jump(context, context.now.duration()); });
 }
 
 void add_lines_and_search(Actions& actions) {
@@ -182,7 +182,7 @@ void add_lines_and_search(Actions& actions) {
          "Ctrl+F",
          icons::search},
         has_text,
-        [](Hands& hands) { hands.session.file.find_wanted = true; });
+        [](ActionContext& context) { context.view_state.file.find_wanted = true; });
     add(actions,
         {"program.find_next",
          "Step-through",
@@ -191,7 +191,7 @@ void add_lines_and_search(Actions& actions) {
          "Ctrl+G",
          icons::search},
         has_text,
-        [](Hands& hands) { hands.session.file.find_next = 1; });
+        [](ActionContext& context) { context.view_state.file.find_next = 1; });
     add(actions,
         {"program.find_previous",
          "Step-through",
@@ -200,7 +200,7 @@ void add_lines_and_search(Actions& actions) {
          "Ctrl+Shift+G",
          icons::search},
         has_text,
-        [](Hands& hands) { hands.session.file.find_next = -1; });
+        [](ActionContext& context) { context.view_state.file.find_next = -1; });
 }
 
 } // namespace

@@ -1,5 +1,5 @@
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 namespace millwright::actions {
 
@@ -9,7 +9,7 @@ namespace {
 
 using widgets::Permission;
 
-Permission has_path(const Workbench& now) {
+Permission has_path(const FrameState& now) {
     const auto made = now.plot.latest();
     if (now.plot.file().empty()) {
         return Permission::refused("Open a plot or a picture first.");
@@ -23,18 +23,18 @@ Permission has_path(const Workbench& now) {
                : Permission::refused(made->failure ? to_text(*made->failure) : "There is no path.");
 }
 
-Permission can_send_plot(const Workbench& now) {
+Permission can_send_plot(const FrameState& now) {
     return now.job.running ? Permission::refused("A job is running.") : has_path(now);
 }
 
-Permission has_path_without_points(const Workbench& now) {
+Permission has_path_without_points(const FrameState& now) {
     const Permission path = has_path(now);
     return path.allowed && now.plot.latest()->points
                ? Permission::refused("The file already contains points.")
                : path;
 }
 
-Permission can_play_plot(const Workbench& now) {
+Permission can_play_plot(const FrameState& now) {
     if (const Permission path = has_path(now); !path.allowed) {
         return path;
     }
@@ -45,11 +45,11 @@ Permission can_play_plot(const Workbench& now) {
     return table.playing ? Permission::refused("The table is moving.") : Permission{};
 }
 
-Permission is_table_moving(const Workbench& now) {
+Permission is_table_moving(const FrameState& now) {
     return now.plot.table().playing() ? Permission{} : Permission::refused("The table is not moving.");
 }
 
-template <drivers::PlayState state> Permission table_is(const Workbench& now) {
+template <drivers::PlayState state> Permission table_is(const FrameState& now) {
     const TableView table = now.plot.table().view();
     const bool is = table.playing && table.status.state == state;
     return is ? Permission{}
@@ -57,9 +57,9 @@ template <drivers::PlayState state> Permission table_is(const Workbench& now) {
                                                                          : "The table is not held.");
 }
 
-template <render::StandardView side> void look(Hands& hands) {
-    hands.session.workspace = Workspace::plot;
-    hands.session.side_wanted = side;
+template <render::StandardView side> void look(ActionContext& context) {
+    context.view_state.workspace = Workspace::plot;
+    context.view_state.side_wanted = side;
 }
 
 void add_plot_views(Actions& actions) {
@@ -81,8 +81,8 @@ void add_plot_views(Actions& actions) {
          "",
          ""},
         always,
-        [](Hands& hands) { hands.session.against_light = !hands.session.against_light; },
-        [](const Workbench& now) { return now.session.against_light; });
+        [](ActionContext& context) { context.view_state.against_light = !context.view_state.against_light; },
+        [](const FrameState& now) { return now.view_state.against_light; });
     add(
         actions,
         {"plot.picture",
@@ -91,12 +91,12 @@ void add_plot_views(Actions& actions) {
          "Shows the picture with its toolpath on top.",
          "",
          ""},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             const auto made = now.plot.latest();
             return made && made->shown_picture ? Permission{} : Permission::refused("No picture is open.");
         },
-        [](Hands& hands) { hands.session.picture_shown = !hands.session.picture_shown; },
-        [](const Workbench& now) { return now.session.picture_shown; });
+        [](ActionContext& context) { context.view_state.picture_shown = !context.view_state.picture_shown; },
+        [](const FrameState& now) { return now.view_state.picture_shown; });
 }
 
 void add_plot_files(Actions& actions) {
@@ -110,7 +110,7 @@ void add_plot_files(Actions& actions) {
          "",
          icons::save},
         has_path,
-        [](Hands& hands) { hands.workshop.write_plot(false); });
+        [](ActionContext& context) { context.app.write_plot(false); });
     add(actions,
         {"plot.write_path",
          menu,
@@ -120,7 +120,7 @@ void add_plot_files(Actions& actions) {
          "",
          icons::save},
         has_path,
-        [](Hands& hands) { hands.workshop.write_plot_path(); });
+        [](ActionContext& context) { context.app.write_plot_path(); });
     add(actions,
         {"plot.write_points",
          menu,
@@ -130,7 +130,7 @@ void add_plot_files(Actions& actions) {
          "",
          icons::save},
         has_path_without_points,
-        [](Hands& hands) { hands.workshop.write_plot_points(); });
+        [](ActionContext& context) { context.app.write_plot_points(); });
     add(actions,
         {"plot.to_machine",
          menu,
@@ -139,7 +139,7 @@ void add_plot_files(Actions& actions) {
          "",
          icons::machine},
         can_send_plot,
-        [](Hands& hands) { hands.workshop.write_plot(true); });
+        [](ActionContext& context) { context.app.write_plot(true); });
 }
 
 void add_plot_table(Actions& actions) {
@@ -152,9 +152,9 @@ void add_plot_table(Actions& actions) {
          "",
          icons::play},
         can_play_plot,
-        [](Hands& hands) {
-            hands.session.playback.playing = false;
-            hands.workshop.plot().play_table(hands.session.playback.time);
+        [](ActionContext& context) {
+            context.view_state.playback.playing = false;
+            context.app.plot().play_table(context.view_state.playback.time);
         });
     add(actions,
         {"plot.hold_table",
@@ -164,7 +164,7 @@ void add_plot_table(Actions& actions) {
          "",
          icons::hold},
         table_is<drivers::PlayState::playing>,
-        [](Hands& hands) { hands.workshop.plot().table().hold(); });
+        [](ActionContext& context) { context.app.plot().table().hold(); });
     add(actions,
         {"plot.resume_table",
          menu,
@@ -173,11 +173,11 @@ void add_plot_table(Actions& actions) {
          "",
          icons::play},
         table_is<drivers::PlayState::holding>,
-        [](Hands& hands) { hands.workshop.plot().table().resume(); });
+        [](ActionContext& context) { context.app.plot().table().resume(); });
     add(actions,
         {"plot.stop_table", menu, "Stop the table", "Sends no more points.", "", icons::stop},
         is_table_moving,
-        [](Hands& hands) { hands.workshop.plot().table().stop(); });
+        [](ActionContext& context) { context.app.plot().table().stop(); });
 }
 
 } // namespace

@@ -1,6 +1,6 @@
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/processor_bench.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/processor_workspace.h"
 
 namespace millwright::actions {
 
@@ -10,8 +10,8 @@ namespace {
 
 using widgets::Permission;
 
-Permission can_execute(const Workbench& now) {
-    if (now.session.workspace != Workspace::processor) {
+Permission can_execute(const FrameState& now) {
+    if (now.view_state.workspace != Workspace::processor) {
         return Permission::refused("Available only in the Processor workspace (F7).");
     }
     if (now.processor.failure()) {
@@ -20,7 +20,7 @@ Permission can_execute(const Workbench& now) {
     return {};
 }
 
-Permission can_go_on(const Workbench& now) {
+Permission can_go_on(const FrameState& now) {
     const Permission able = can_execute(now);
     if (able.allowed && now.processor.debugger().state().stop != cordic::Stop::none) {
         return Permission::refused("The processor is halted. Reset it to begin again.");
@@ -28,15 +28,15 @@ Permission can_go_on(const Workbench& now) {
     return able;
 }
 
-Permission runs(const Workbench& now) {
+Permission runs(const FrameState& now) {
     return now.processor.running() ? Permission{} : Permission::refused("The processor is not running.");
 }
 
-Permission has_gcode_file(const Workbench& now) {
+Permission has_gcode_file(const FrameState& now) {
     return now.opened ? Permission{} : Permission::refused("Open a G-code file first.");
 }
 
-Permission has_program(const Workbench& now) {
+Permission has_program(const FrameState& now) {
     if (!now.listing()) {
         return Permission::refused("The project has no program yet.");
     }
@@ -44,50 +44,50 @@ Permission has_program(const Workbench& now) {
                                   : Permission::refused("The program is still being computed.");
 }
 
-Permission in_processor(const Workbench& now) {
-    return now.session.workspace == Workspace::processor
+Permission in_processor(const FrameState& now) {
+    return now.view_state.workspace == Workspace::processor
                ? Permission{}
                : Permission::refused("Available only in the Processor workspace (F7).");
 }
 
-Permission has_assembler(const Workbench& now) {
+Permission has_assembler(const FrameState& now) {
     return now.processor.written().input().assembler.empty()
                ? Permission::refused("There is no assembly source yet: write or open one under Assembler.")
                : Permission{};
 }
 
-Permission has_microprogram(const Workbench& now) {
+Permission has_microprogram(const FrameState& now) {
     return now.processor.written().input().microprogram.empty()
                ? Permission::refused("There is no microprogram yet: copy the built-in one, or open one.")
                : Permission{};
 }
 
 /// Back to the processor's own in any case.
-Permission can_turn_microprogram(const Workbench& now) {
+Permission can_turn_microprogram(const FrameState& now) {
     return now.processor.choice().own_microprogram ? Permission{} : has_microprogram(now);
 }
 
-void turn_own_microprogram(Hands& hands) {
-    ProcessorBench& bench = hands.workshop.processor();
-    ProcessorChoice choice = bench.choice();
+void turn_own_microprogram(ActionContext& context) {
+    ProcessorWorkspace& workspace = context.app.processor();
+    ProcessorChoice choice = workspace.choice();
     choice.own_microprogram = !choice.own_microprogram;
-    bench.set(choice);
+    workspace.set(choice);
 }
 
-template <FileQuestion question> void ask_for_processor_file(Hands& hands) {
-    hands.session.question = question;
+template <FilePrompt prompt> void ask_for_processor_file(ActionContext& context) {
+    context.view_state.file_prompt = prompt;
 }
 
-template <ProcessorStep step> void do_step(Hands& hands) {
-    hands.workshop.processor().step(step);
+template <ProcessorStep step> void do_step(ActionContext& context) {
+    context.app.processor().step(step);
 }
 
-template <ProcessorSource source> void load(Hands& hands) {
-    hands.session.workspace = Workspace::processor;
-    hands.workshop.load_processor(source);
+template <ProcessorSource source> void load(ActionContext& context) {
+    context.view_state.workspace = Workspace::processor;
+    context.app.load_processor(source);
 }
 
-template <ProcessorSource source> bool is_loaded(const Workbench& now) {
+template <ProcessorSource source> bool is_loaded(const FrameState& now) {
     return now.processor.choice().source == source;
 }
 
@@ -101,7 +101,7 @@ void add_steps(Actions& actions) {
          "",
          icons::reset},
         can_execute,
-        [](Hands& hands) { hands.workshop.processor().reset(); });
+        [](ActionContext& context) { context.app.processor().reset(); });
     add(actions,
         {"processor.clock", menu, "Step one clock", "Executes one clock of the processor.", "Ctrl+1", ""},
         can_go_on,
@@ -145,11 +145,11 @@ void add_steps(Actions& actions) {
     add(actions,
         {"processor.run", menu, "Run", "Runs to a breakpoint or to the end.", "Ctrl+7", icons::play},
         can_go_on,
-        [](Hands& hands) { hands.workshop.processor().run(); });
+        [](ActionContext& context) { context.app.processor().run(); });
     add(actions,
         {"processor.pause", menu, "Pause", "Stops between two clocks.", "Ctrl+8", icons::pause},
         runs,
-        [](Hands& hands) { hands.workshop.processor().pause(); });
+        [](ActionContext& context) { context.app.processor().pause(); });
 }
 
 void add_assembler_texts(Actions& actions) {
@@ -172,7 +172,7 @@ void add_assembler_texts(Actions& actions) {
          "",
          ""},
         can_execute,
-        [](Hands& hands) { hands.workshop.take_over_assembler(); });
+        [](ActionContext& context) { context.app.take_over_assembler(); });
     add(actions,
         {"processor.open_assembler",
          menu,
@@ -181,7 +181,7 @@ void add_assembler_texts(Actions& actions) {
          "",
          icons::folder},
         in_processor,
-        ask_for_processor_file<FileQuestion::open_assembler>);
+        ask_for_processor_file<FilePrompt::open_assembler>);
     add(actions,
         {"processor.save_assembler",
          menu,
@@ -190,7 +190,7 @@ void add_assembler_texts(Actions& actions) {
          "",
          icons::save},
         has_assembler,
-        ask_for_processor_file<FileQuestion::save_assembler>);
+        ask_for_processor_file<FilePrompt::save_assembler>);
     add(actions,
         {"processor.save_image",
          menu,
@@ -199,7 +199,7 @@ void add_assembler_texts(Actions& actions) {
          "",
          icons::save},
         can_execute,
-        ask_for_processor_file<FileQuestion::save_image>);
+        ask_for_processor_file<FilePrompt::save_image>);
 }
 
 void add_microprogram_texts(Actions& actions) {
@@ -213,7 +213,7 @@ void add_microprogram_texts(Actions& actions) {
          ""},
         can_turn_microprogram,
         turn_own_microprogram,
-        [](const Workbench& now) { return now.processor.choice().own_microprogram; });
+        [](const FrameState& now) { return now.processor.choice().own_microprogram; });
     add(actions,
         {"processor.start_microprogram",
          menu,
@@ -222,7 +222,7 @@ void add_microprogram_texts(Actions& actions) {
          "",
          ""},
         in_processor,
-        [](Hands& hands) { hands.workshop.start_microprogram(); });
+        [](ActionContext& context) { context.app.start_microprogram(); });
     add(actions,
         {"processor.open_microprogram",
          menu,
@@ -231,7 +231,7 @@ void add_microprogram_texts(Actions& actions) {
          "",
          icons::folder},
         in_processor,
-        ask_for_processor_file<FileQuestion::open_microprogram>);
+        ask_for_processor_file<FilePrompt::open_microprogram>);
     add(actions,
         {"processor.save_microprogram",
          menu,
@@ -240,7 +240,7 @@ void add_microprogram_texts(Actions& actions) {
          "",
          icons::save},
         has_microprogram,
-        ask_for_processor_file<FileQuestion::save_microprogram>);
+        ask_for_processor_file<FilePrompt::save_microprogram>);
 }
 
 void add_texts(Actions& actions) {

@@ -1,8 +1,8 @@
 #include "ui/actions/run_check.h"
 
-#include "ui/actions/start_question.h"
+#include "ui/actions/frame_state.h"
+#include "ui/actions/start_prompt.h"
 #include "ui/actions/tool_changes.h"
-#include "ui/actions/workbench.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ bool same_abilities(const drivers::Capabilities& a, const drivers::Capabilities&
            a.tool_changes == b.tool_changes && a.laser == b.laser && a.firmware == b.firmware;
 }
 
-bool same_machine(const ControllerView& a, const ControllerView& b) {
+bool same_machine(const ConnectionView& a, const ConnectionView& b) {
     return a.link == b.link && a.choice.driver == b.choice.driver && a.axes == b.axes &&
            a.status.modes == b.status.modes && a.status.tool == b.status.tool &&
            a.status.position_doubt == b.status.position_doubt &&
@@ -71,25 +71,25 @@ jobs::Job job_of(const RunWish& wish) {
 
 } // namespace
 
-RunWish run_wish(const Workbench& now) {
+RunWish run_wish(const FrameState& now) {
     return finished(
-        {job_source(now), nullptr, now.session.begin.on ? now.approach : nullptr, now.controller, {}});
+        {job_source(now), nullptr, now.view_state.start_at.on ? now.approach : nullptr, now.connection, {}});
 }
 
-RunWish run_wish(const Workbench& now, std::shared_ptr<const jobs::Job> queued) {
+RunWish run_wish(const FrameState& now, std::shared_ptr<const jobs::Job> queued) {
     JobSource source;
     source.as_text = queued->program == nullptr;
     if (source.as_text) {
-        source.tool_change = tool_change_plan(now.session.hand, now.controller);
+        source.tool_change = tool_change_plan(now.view_state.manual, now.connection);
     }
-    return finished({std::move(source), std::move(queued), nullptr, now.controller, {}});
+    return finished({std::move(source), std::move(queued), nullptr, now.connection, {}});
 }
 
-widgets::Permission run_check_passed(const Workbench& now) {
+widgets::Permission run_check_passed(const FrameState& now) {
     return now.run_check ? refused_for(now.run_check->faults) : widgets::Permission{};
 }
 
-widgets::Permission next_check_passed(const Workbench& now) {
+widgets::Permission next_check_passed(const FrameState& now) {
     return now.next_check ? refused_for(now.next_check->faults) : widgets::Permission{};
 }
 

@@ -5,9 +5,9 @@
 #include "core/base/error.h"
 #include "core/base/progress.h"
 #include "ui/actions/approach.h"
-#include "ui/actions/controller.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/latest_work.h"
+#include "ui/actions/machine_connection.h"
 
 #include <filesystem>
 #include <memory>
@@ -15,14 +15,14 @@
 
 namespace millwright::actions {
 
-struct Workbench;
+struct FrameState;
 
 /// The job that is shown, or the next one of the queue, and the machine that would get it.
 struct RunWish {
     JobSource source;                         ///< of a queued job its tool changes alone
     std::shared_ptr<const jobs::Job> queued;  ///< null: the job that is shown
     std::shared_ptr<const Approach> approach; ///< of a job from a line; null: from its beginning
-    ControllerView machine;                   ///< at rest
+    ConnectionView machine;                   ///< at rest
     std::filesystem::file_time_type
         macro_written; ///< of the tool change's macro, so that a repaired one is read
 };
@@ -33,14 +33,14 @@ struct RunCheck {
 };
 
 /// Of what is shown. Only where job_ready() says yes.
-[[nodiscard]] RunWish run_wish(const Workbench& now);
+[[nodiscard]] RunWish run_wish(const FrameState& now);
 /// Of a job of the queue.
-[[nodiscard]] RunWish run_wish(const Workbench& now, std::shared_ptr<const jobs::Job> queued);
-/// Why what is shown is not run: the first of the faults of Workbench::run_check. While that is not known it
+[[nodiscard]] RunWish run_wish(const FrameState& now, std::shared_ptr<const jobs::Job> queued);
+/// Why what is shown is not run: the first of the faults of FrameState::run_check. While that is not known it
 /// is allowed, since the same is checked again before anything is sent.
-[[nodiscard]] widgets::Permission run_check_passed(const Workbench& now);
-/// The same of the next job of the queue and Workbench::next_check.
-[[nodiscard]] widgets::Permission next_check_passed(const Workbench& now);
+[[nodiscard]] widgets::Permission run_check_passed(const FrameState& now);
+/// The same of the next job of the queue and FrameState::next_check.
+[[nodiscard]] widgets::Permission next_check_passed(const FrameState& now);
 /// Both have the same faults: positions within 0.001 mm, or rad, are the same.
 [[nodiscard]] bool asks_the_same(const RunWish& a, const RunWish& b);
 /// Reads the whole program. Throws nothing but Cancelled: what is wrong is a fault.

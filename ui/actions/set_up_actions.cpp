@@ -1,6 +1,6 @@
 #include "core/base/numbers.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/workshop.h"
 
 #include <optional>
 
@@ -13,24 +13,24 @@ namespace {
 using widgets::Permission;
 
 /// Also of a part that is out of reach where it stands: another place may help.
-Permission can_search(const Workbench& now) {
-    return now.plan && now.plan->plan.workpiece
+Permission can_search(const FrameState& now) {
+    return now.plan && now.plan->plan.cutting_setup
                ? Permission{}
                : Permission::refused("There is no part on a machine yet. " + now.failure());
 }
 
 /// The part is where the map is marked, and a turn of it is none.
-bool stands_there(const Workbench& now) {
+bool stands_there(const FrameState& now) {
     const toolpath::SetUpPlace place = now.set_up_place();
     std::optional<Vec3> stands = now.project.machine.workpiece_offset;
-    if (!stands && now.plan && now.plan->plan.workpiece) {
-        stands = now.plan->plan.workpiece->machine.description().workpiece_offset;
+    if (!stands && now.plan && now.plan->plan.cutting_setup) {
+        stands = now.plan->plan.cutting_setup->machine.description().workpiece_offset;
     }
     const double turn = place[static_cast<Eigen::Index>(toolpath::SetUpParameter::turn)];
     return stands == toolpath::offset_of(place) && exactly_equal(turn, 0.0);
 }
 
-Permission can_accept(const Workbench& now) {
+Permission can_accept(const FrameState& now) {
     if (!now.set_up || !now.set_up->study) {
         return Permission::refused("No position has been searched for.");
     }
@@ -52,7 +52,7 @@ void add_set_up_actions(Actions& actions) {
          "",
          icons::search},
         can_search,
-        [](Hands& hands) { hands.workshop.search_set_up(); });
+        [](ActionContext& context) { context.app.search_set_up(); });
     add(actions,
         {"set_up.accept",
          "Grid",
@@ -61,7 +61,7 @@ void add_set_up_actions(Actions& actions) {
          "",
          icons::check},
         can_accept,
-        [](Hands& hands) { hands.workshop.accept_set_up(); });
+        [](ActionContext& context) { context.app.accept_set_up(); });
 }
 
 } // namespace millwright::actions

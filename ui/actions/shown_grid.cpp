@@ -4,17 +4,17 @@
 
 namespace millwright::actions {
 
-project::GridMethod shown_grid(const Workbench& now) {
-    return now.evaluation(now.session.shown) ? now.session.shown : project::GridMethod::uniform;
+project::GridMethod shown_grid(const FrameState& now) {
+    return now.evaluation(now.view_state.shown) ? now.view_state.shown : project::GridMethod::uniform;
 }
 
-void show_program_path(Session& session, const project::Project& project) {
-    session.shown = plan::program_grid(project);
-    session.own_path_shown = true;
+void show_program_path(ViewState& view_state, const project::Project& project) {
+    view_state.shown = plan::program_grid(project);
+    view_state.own_path_shown = true;
 }
 
 bool is_so_far(const plan::Evaluation& evaluation) {
-    return evaluation.outcome.status == grid::ImproverStatus::running;
+    return evaluation.outcome.status == grid::OptimiserStatus::running;
 }
 
 } // namespace millwright::actions

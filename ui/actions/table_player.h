@@ -39,7 +39,7 @@ struct TableWork {
     std::filesystem::path file; ///< that it was made of
     std::shared_ptr<const kinematics::MachineModel> model;
     double spindle_rpm = 0.0; ///< of its program
-    /// Of a point file: they are played in place of the path, one a period.
+    /// Of a point file: they are played in place of the path, one per period.
     std::shared_ptr<const plan::PlotPoints> points = {};
 
     /// Where it is played from if the place of the table is not known, mm.

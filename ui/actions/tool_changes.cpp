@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
-#include "ui/actions/controller.h"
-#include "ui/actions/hand_settings.h"
+#include "ui/actions/machine_connection.h"
+#include "ui/actions/manual_settings.h"
 
 #include <algorithm>
 #include <array>
@@ -41,16 +41,16 @@ bool take_number(std::string_view& text, double& value) {
 
 } // namespace
 
-ToolChangeSettings tool_change_settings(const HandSettings& hand, const ControllerView& machine) {
-    const auto found = hand.tool_changes.find(machine.choice.address);
-    return found == hand.tool_changes.end() ? ToolChangeSettings{} : found->second;
+ToolChangeSettings tool_change_settings(const ManualSettings& manual, const ConnectionView& machine) {
+    const auto found = manual.tool_changes.find(machine.choice.address);
+    return found == manual.tool_changes.end() ? ToolChangeSettings{} : found->second;
 }
 
-std::optional<ToolChangePlan> tool_change_plan(const HandSettings& hand, const ControllerView& machine) {
+std::optional<ToolChangePlan> tool_change_plan(const ManualSettings& manual, const ConnectionView& machine) {
     if (!machine.connected() || !machine.can.tool_changes) {
         return std::nullopt;
     }
-    const ToolChangeSettings settings = tool_change_settings(hand, machine);
+    const ToolChangeSettings settings = tool_change_settings(manual, machine);
     return settings.here ? std::optional(settings.plan) : std::nullopt;
 }
 

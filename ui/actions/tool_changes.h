@@ -10,8 +10,8 @@
 
 namespace millwright::actions {
 
-struct ControllerView;
-struct HandSettings;
+struct ConnectionView;
+struct ManualSettings;
 
 struct ToolChangeSettings {
     bool here = true;             ///< false: a program with M6 is refused
@@ -21,12 +21,12 @@ struct ToolChangeSettings {
 };
 
 /// Of the machine that is connected or was last.
-[[nodiscard]] ToolChangeSettings tool_change_settings(const HandSettings& hand,
-                                                      const ControllerView& machine);
+[[nodiscard]] ToolChangeSettings tool_change_settings(const ManualSettings& manual,
+                                                      const ConnectionView& machine);
 
 /// As Job::tool_change has it, without the macro's text.
-[[nodiscard]] std::optional<drivers::ToolChangePlan> tool_change_plan(const HandSettings& hand,
-                                                                      const ControllerView& machine);
+[[nodiscard]] std::optional<drivers::ToolChangePlan> tool_change_plan(const ManualSettings& manual,
+                                                                      const ConnectionView& machine);
 
 /// Reads the file of a job's macro. Throws Error if it cannot be read.
 void read_macro(jobs::Job& job);

@@ -1,5 +1,5 @@
-#include "core/plan/left_out.h"
-#include "core/project/settings.h"
+#include "core/plan/skipped_comparisons.h"
+#include "core/project/setting_tables.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/actions/wanted_plan.h"
@@ -12,34 +12,35 @@ namespace icons = widgets::icons;
 
 namespace {
 
-template <Workspace workspace> void show_workspace(Hands& hands) {
-    hands.session.workspace = workspace;
+template <Workspace workspace> void show_workspace(ActionContext& context) {
+    context.view_state.workspace = workspace;
 }
 
-template <Workspace workspace> bool is_in(const Workbench& now) {
-    return now.session.workspace == workspace;
+template <Workspace workspace> bool is_in(const FrameState& now) {
+    return now.view_state.workspace == workspace;
 }
 
-template <project::GridMethod method> bool is_shown(const Workbench& now) {
+template <project::GridMethod method> bool is_shown(const FrameState& now) {
     return shown_grid(now) == method && !now.shows_own_path();
 }
 
-template <bool PaneSizes::*pane> bool has_pane(const Workbench& now) {
-    return now.session.panes.*pane;
+template <bool PaneSizes::*pane> bool has_pane(const FrameState& now) {
+    return now.view_state.panes.*pane;
 }
 
-template <project::GridMethod method> void show(Hands& hands) {
-    show_grid(hands.session, method);
+template <project::GridMethod method> void show(ActionContext& context) {
+    show_grid(context.view_state, method);
 }
 
 /// A grid to compare with is made when it is looked at.
-bool is_made_when_shown(const Workbench& now, project::GridMethod method) {
+bool is_made_when_shown(const FrameState& now, project::GridMethod method) {
     return now.plan && !now.plan->plan.grid(method).failure &&
-           !wanted_plan(now.session, now.project).comparisons && !plan::is_left_out(now.project, method) &&
+           !wanted_plan(now.view_state, now.project).comparisons &&
+           !plan::is_comparison_skipped(now.project, method) &&
            std::ranges::count(project::compared_methods, method) > 0;
 }
 
-template <project::GridMethod method> widgets::Permission is_there(const Workbench& now) {
+template <project::GridMethod method> widgets::Permission is_there(const FrameState& now) {
     return now.evaluation(method) || is_made_when_shown(now, method)
                ? widgets::Permission{}
                : widgets::Permission::refused("This grid has not been computed yet.");
@@ -51,9 +52,9 @@ void add_show(Actions& actions, std::string_view id, std::string_view title, std
 }
 
 /// In one picture.
-template <render::StandardView side> void look_from(Hands& hands) {
-    hands.session.four_views = false;
-    hands.session.side_wanted = side;
+template <render::StandardView side> void look_from(ActionContext& context) {
+    context.view_state.four_views = false;
+    context.view_state.side_wanted = side;
 }
 
 void add_sides(Actions& actions) {
@@ -85,28 +86,28 @@ void add_sides(Actions& actions) {
         look_from<StandardView::oblique>);
 }
 
-template <bool PaneSizes::*pane> void toggle_pane(Hands& hands) {
-    hands.session.panes.*pane = !(hands.session.panes.*pane);
+template <bool PaneSizes::*pane> void toggle_pane(ActionContext& context) {
+    context.view_state.panes.*pane = !(context.view_state.panes.*pane);
 }
 
-widgets::Permission has_shown(const Workbench& now) {
-    return now.shown() && now.plan->plan.workpiece ? widgets::Permission{}
-                                                   : widgets::Permission::refused("No path is shown.");
+widgets::Permission has_shown(const FrameState& now) {
+    return now.shown() && now.plan->plan.cutting_setup ? widgets::Permission{}
+                                                       : widgets::Permission::refused("No path is shown.");
 }
 
-void keep_result(Hands& hands) {
-    const Workbench& now = hands.now;
+void keep_result(ActionContext& context) {
+    const FrameState& now = context.now;
     const plan::Plan& plan = now.plan->plan;
-    hands.session.kept =
+    context.view_state.kept =
         std::make_shared<const KeptResult>(KeptResult{now.shown_name() + " on " + now.project.machine.file,
                                                       now.part_place(),
                                                       now.project,
                                                       plan.surface,
-                                                      plan.workpiece,
+                                                      plan.cutting_setup,
                                                       now.shown(),
                                                       plan.cut_of(now.project, now.shown().get()),
                                                       plan.singular_points});
-    hands.session.beside = {{}, true};
+    context.view_state.compare_with = {{}, true};
 }
 
 void add_workspaces(Actions& actions) {
@@ -190,16 +191,16 @@ void add_shown(Actions& actions) {
          "Draws path and error of the chosen strategy.",
          "",
          ""},
-        [](const Workbench& now) {
+        [](const FrameState& now) {
             return now.plan && now.plan->plan.path
                        ? widgets::Permission{}
                        : widgets::Permission::refused("The program follows a zigzag over its grid.");
         },
-        [](Hands& hands) {
-            hands.session.own_path_shown = true;
-            hands.session.workspace = Workspace::toolpath;
+        [](ActionContext& context) {
+            context.view_state.own_path_shown = true;
+            context.view_state.workspace = Workspace::toolpath;
         },
-        [](const Workbench& now) { return now.shows_own_path(); });
+        [](const FrameState& now) { return now.shows_own_path(); });
     add(actions,
         {"view.keep_result",
          "View",
@@ -212,7 +213,9 @@ void add_shown(Actions& actions) {
     add(actions,
         {"view.fit", "View", "Fit the view", "Shows the whole scene.", "F", icons::fit_view},
         always,
-        [](Hands& hands) { hands.session.fit_wanted_in(hands.session.workspace) = true; });
+        [](ActionContext& context) {
+            context.view_state.fit_wanted_in(context.view_state.workspace) = true;
+        });
     add_sides(actions);
 }
 
@@ -221,8 +224,8 @@ void add_panes_shown(Actions& actions) {
         actions,
         {"view.four", "View", "Four views", "Top, front, right and free view side by side.", "Ctrl+4", ""},
         always,
-        [](Hands& hands) { hands.session.four_views = !hands.session.four_views; },
-        [](const Workbench& now) { return now.session.four_views; });
+        [](ActionContext& context) { context.view_state.four_views = !context.view_state.four_views; },
+        [](const FrameState& now) { return now.view_state.four_views; });
     add(actions,
         {"view.outline", "View", "Outline pane", "Shows or hides the outline.", "", ""},
         always,
@@ -250,11 +253,11 @@ void add_window(Actions& actions) {
          "",
          icons::moon},
         always,
-        [](Hands& hands) {
-            const bool dark = hands.session.theme == widgets::Theme::dark;
-            hands.session.theme = dark ? widgets::Theme::light : widgets::Theme::dark;
+        [](ActionContext& context) {
+            const bool dark = context.view_state.theme == widgets::Theme::dark;
+            context.view_state.theme = dark ? widgets::Theme::light : widgets::Theme::dark;
         },
-        [](const Workbench& now) { return now.session.theme == widgets::Theme::light; });
+        [](const FrameState& now) { return now.view_state.theme == widgets::Theme::light; });
     add(actions,
         {"view.colors",
          "View",
@@ -263,7 +266,7 @@ void add_window(Actions& actions) {
          "",
          ""},
         always,
-        [](Hands& hands) { hands.session.colors_shown = true; });
+        [](ActionContext& context) { context.view_state.colors_shown = true; });
     add(actions,
         {"view.search",
          "View",
@@ -272,7 +275,7 @@ void add_window(Actions& actions) {
          "Ctrl+K",
          icons::search},
         always,
-        [](Hands& hands) { hands.session.search_wanted = true; });
+        [](ActionContext& context) { context.view_state.search_wanted = true; });
 }
 
 } // namespace

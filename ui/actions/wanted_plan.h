@@ -3,11 +3,11 @@
 
 #include "core/plan/plan.h"
 #include "core/project/project.h"
-#include "ui/actions/session.h"
+#include "ui/actions/view_state.h"
 
 namespace millwright::actions {
 
 /// The program and what the cutter does on it always: a job is checked by them.
-[[nodiscard]] plan::Scope wanted_plan(const Session& session, const project::Project& project);
+[[nodiscard]] plan::Scope wanted_plan(const ViewState& view_state, const project::Project& project);
 
 } // namespace millwright::actions

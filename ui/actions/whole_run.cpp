@@ -13,8 +13,8 @@ WholeRun::Answer WholeRun::judged(const Wish& wish) {
     const cordic::Processor& processor = *wish.from;
     return {wish.from,
             cordic::report_of(processor, *wish.expected, wish.terms.clock_hz),
-            cordic::sew({.needle_rpm = wish.terms.needle_rpm},
-                        cordic::stitches_of(processor, wish.terms.clock_hz)),
+            cordic::time_stitches({.needle_rpm = wish.terms.needle_rpm},
+                                  cordic::stitches_of(processor, wish.terms.clock_hz)),
             cordic::path_differences(processor, *wish.expected)};
 }
 

@@ -2,9 +2,9 @@
 // beginning at once, so that what follows a dragging hand moves, the rest of a long one in the background.
 #pragma once
 
-#include "core/cordic/endless_watch.h"
+#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
-#include "core/cordic_control/sewing.h"
+#include "core/cordic_control/stitch_timing.h"
 #include "ui/actions/latest_work.h"
 
 #include <cstdint>
@@ -35,7 +35,7 @@ public:
     void clear();
 
     [[nodiscard]] const cordic::RunReport& report() const { return known_->report; }
-    [[nodiscard]] const cordic::SewingRun& sewing() const { return known_->sewing; }
+    [[nodiscard]] const cordic::StitchTiming& sewing() const { return known_->sewing; }
     [[nodiscard]] std::span<const cordic::PathDifference> differences() const { return known_->differences; }
 
     [[nodiscard]] bool goes_on() const { return goes_on_; } ///< in the background: what is known is a part
@@ -53,7 +53,7 @@ private:
     struct Answer {
         std::shared_ptr<const cordic::Processor> processor; ///< behind the run
         cordic::RunReport report;
-        cordic::SewingRun sewing;
+        cordic::StitchTiming sewing;
         std::vector<cordic::PathDifference> differences;
     };
     static Answer judged(const Wish& wish);

@@ -4,7 +4,7 @@
 #include "core/arm/arm_zone.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ std::string drive_cell(const arm::ArmDriveReadings& found, std::size_t row, int 
 
 } // namespace
 
-void arm_drives(Ui& ui, const Workbench& now) {
+void arm_drives(Ui& ui, const FrameState& now) {
     if (!now.arm.loaded()) {
         ui.note("No arm is loaded.");
         return;
@@ -61,7 +61,7 @@ void arm_drives(Ui& ui, const Workbench& now) {
                                                       {"Minimum", "counts", 1.2F, true},
                                                       {"Maximum", "counts", 1.2F, true},
                                                       {"Turns", {}, 0.8F, true}}};
-    const bool known = !now.arm_connected() || now.controller.status.position_known;
+    const bool known = !now.arm_connected() || now.connection.status.position_known;
     arm::ArmDriveReadings found = arm::drive_readings(*drives, now.arm.joints());
     arm::add_joint_limits(found, *drives, now.arm.arm());
     widgets::TableView view;

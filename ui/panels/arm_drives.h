@@ -6,6 +6,6 @@
 
 namespace millwright::panels {
 
-void arm_drives(Ui& ui, const Workbench& now);
+void arm_drives(Ui& ui, const FrameState& now);
 
 } // namespace millwright::panels

@@ -4,9 +4,9 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/units.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/internal/manual_fields.h"
 #include "ui/render/imgui_compat.h"
 #include "ui/widgets/slider.h"
 
@@ -43,35 +43,35 @@ constexpr std::array<widgets::Option, 4> arm_jog_step_options{
      {"1", "1"},
      {"10", "10"}}};
 
-bool drives(const Workbench& now, int joint) {
-    return joint < std::ssize(now.controller.axes);
+bool drives(const FrameState& now, int joint) {
+    return joint < std::ssize(now.connection.axes);
 }
 
-Permission can_jog_joint(const Workbench& now, int joint) {
+Permission can_jog_joint(const FrameState& now, int joint) {
     if (!now.arm_connected()) {
-        return now.controller.connected()
+        return now.connection.connected()
                    ? Permission::refused("The connected device is not an arm: use the Machine workspace.")
                    : Permission{};
     }
     if (joint >= 0 && !drives(now, joint)) {
         return Permission::refused("The controller does not drive this joint.");
     }
-    if (!now.controller.status.powered && now.controller.status.state != drivers::DriverState::alarm) {
+    if (!now.connection.status.powered && now.connection.status.state != drivers::DriverState::alarm) {
         return Permission::refused("The motors have no power.");
     }
-    return now.controller.status.activity == drivers::Activity::jog ? Permission{} : at_rest(now.controller);
+    return now.connection.status.activity == drivers::Activity::jog ? Permission{} : at_rest(now.connection);
 }
 
 /// The joint that + and - jog; -1 while no keys do.
-int joint_of_keys(const Workbench& now) {
-    const actions::HandSettings& hand = now.session.hand;
-    return hand.arm_keys ? std::min(hand.arm_joint, now.arm.arm().joint_count() - 1) : -1;
+int joint_of_keys(const FrameState& now) {
+    const actions::ManualSettings& manual = now.view_state.manual;
+    return manual.arm_keys ? std::min(manual.arm_joint, now.arm.arm().joint_count() - 1) : -1;
 }
 
 /// A key has no tip that tells why it does nothing.
 void tell_refusal(ActionQueue& ask, std::string_view what, const widgets::Permission& why) {
-    ask.show([text = fmt::format("{}: {}", what, why.reason)](actions::Session& session) {
-        actions::tell(session, widgets::Severity::warning, text);
+    ask.show([text = fmt::format("{}: {}", what, why.reason)](actions::ViewState& view_state) {
+        actions::tell(view_state, widgets::Severity::warning, text);
     });
 }
 
@@ -80,11 +80,11 @@ void tell_refusal(ActionQueue& ask, std::string_view what, const widgets::Permis
 /// What is held down in this frame.
 class ArmJogPanel::Wish {
 public:
-    Wish(const Workbench& now, ActionQueue& ask, std::string& refusal)
+    Wish(const FrameState& now, ActionQueue& ask, std::string& refusal)
         : now_(now), ask_(ask), refusal_(refusal) {}
 
     void joint(int joint, double sign, bool held, bool pressed) {
-        const double step = now_.session.hand.step;
+        const double step = now_.view_state.manual.step;
         if (step > 0.0) {
             if (pressed) {
                 JointPositions way = JointPositions::Zero(now_.arm.joints().size());
@@ -99,12 +99,13 @@ public:
     }
 
     void line(int axis, double sign, bool held, bool pressed) {
-        const double step = now_.session.hand.step;
+        const double step = now_.view_state.manual.step;
         if (step > 0.0 ? !pressed : !held) {
             return;
         }
-        const Mat3 directions = now_.session.hand.arm_frame == ArmFrame::tool ? Mat3(now_.arm.tool().linear())
-                                                                              : Mat3(Mat3::Identity());
+        const Mat3 directions = now_.view_state.manual.arm_frame == ArmFrame::tool
+                                    ? Mat3(now_.arm.tool().linear())
+                                    : Mat3(Mat3::Identity());
         const Vec3 way = sign * directions.col(axis);
         const Vec3 velocity = way * share() * fastest_mm_per_s;
         const arm::ArmRates found = arm::tip_rates(now_.arm.arm(), now_.arm.joints(), velocity);
@@ -127,12 +128,12 @@ public:
         }
         refusal_.clear();
         if (!now_.arm_connected()) {
-            ask_.arm([rates = *rates_, velocity = velocity_](actions::ArmBench& bench) {
-                velocity ? bench.hold_line(*velocity) : bench.hold_jog(rates);
+            ask_.arm([rates = *rates_, velocity = velocity_](actions::ArmWorkspace& workspace) {
+                velocity ? workspace.hold_line(*velocity) : workspace.hold_jog(rates);
             });
             return;
         }
-        const JointPositions driven = rates_->head(std::ssize(now_.controller.axes));
+        const JointPositions driven = rates_->head(std::ssize(now_.connection.axes));
         const double most = driven.cwiseAbs().maxCoeff();
         if (most > 0.0) {
             ask_.jog(JogWish{driven / most, most});
@@ -143,7 +144,7 @@ private:
     [[nodiscard]] bool turns(int joint) const {
         return now_.arm.arm().joint(joint).kind == arm::JointKind::revolute;
     }
-    [[nodiscard]] double share() const { return now_.session.hand.arm_percent / whole_percent; }
+    [[nodiscard]] double share() const { return now_.view_state.manual.arm_percent / whole_percent; }
 
     /// No joint faster than a person can follow.
     [[nodiscard]] static JointPositions slowed(const JointPositions& rates) {
@@ -154,7 +155,7 @@ private:
     void step_line(const Vec3& way) {
         if (!now_.arm_connected()) {
             refusal_.clear();
-            ask_.arm([way](actions::ArmBench& bench) { bench.move_tip_by(way); });
+            ask_.arm([way](actions::ArmWorkspace& workspace) { workspace.move_tip_by(way); });
             return;
         }
         const arm::ArmHold there = arm::moved_tip(now_.arm.arm(), now_.arm.joints(), way);
@@ -168,16 +169,17 @@ private:
     void begin_step(const JointPositions& way) {
         refusal_.clear();
         if (!now_.arm_connected()) {
-            ask_.arm([way](actions::ArmBench& bench) { bench.set_joints(bench.joints() + way); });
+            ask_.arm(
+                [way](actions::ArmWorkspace& workspace) { workspace.set_joints(workspace.joints() + way); });
             return;
         }
         drivers::Jog jog;
-        jog.way = way.head(std::ssize(now_.controller.axes));
+        jog.way = way.head(std::ssize(now_.connection.axes));
         jog.speed = share() * from_degrees(fastest_deg_per_s);
         ask_.tell([jog](drivers::Driver& driver) { driver.jog(jog); });
     }
 
-    const Workbench& now_;
+    const FrameState& now_;
     ActionQueue& ask_;
     std::string& refusal_;
     std::optional<JointPositions> rates_;
@@ -193,7 +195,7 @@ bool is_low(const Ui& ui) {
 }
 
 /// Below all buttons, so that it moves none of them.
-void draw_protections(Ui& ui, const Workbench& now) {
+void draw_protections(Ui& ui, const FrameState& now) {
     if (now.arm.news().protections_off().empty()) {
         return;
     }
@@ -206,18 +208,18 @@ void draw_protections(Ui& ui, const Workbench& now) {
 
 } // namespace
 
-void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ArmJogPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
     if (!now.arm.loaded()) {
         return;
     }
     draw_power(ui, now, ask);
     if (const auto section = ui.section("jog", now.arm_connected() ? "Jog" : "Jog (simulated arm)")) {
-        const int frame = static_cast<int>(now.session.hand.arm_frame);
+        const int frame = static_cast<int>(now.view_state.manual.arm_frame);
         if (const auto chosen = ui.segmented("frame", "Frame", frame, frames)) {
             refusal_.clear();
-            ask.show([f = static_cast<ArmFrame>(*chosen)](actions::Session& session) {
-                session.hand.arm_frame = f;
+            ask.show([f = static_cast<ArmFrame>(*chosen)](actions::ViewState& view_state) {
+                view_state.manual.arm_frame = f;
             });
         }
         if (!can_jog_joint(now, -1).allowed) {
@@ -236,14 +238,14 @@ void ArmJogPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_protections(ui, now);
 }
 
-void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
+void ArmJogPanel::draw_buttons(Ui& ui, const FrameState& now, Wish& wish) const {
     const auto button = [&](const std::string& name, double sign, int joint) {
         const std::string id = (sign > 0.0 ? "plus_" : "minus_") + name;
         const Rank rank = joint >= 0 && joint == joint_of_keys(now) ? Rank::primary : Rank::normal;
         return ui.hold_button(
             id, name + (sign > 0.0 ? " +" : " \u2212"), can_jog_joint(now, joint), {{}, rank, -1.0F, {}});
     };
-    if (now.session.hand.arm_frame == ArmFrame::joints) {
+    if (now.view_state.manual.arm_frame == ArmFrame::joints) {
         const int joints = now.arm.arm().joint_count(), a_row = is_low(ui) ? 3 : 1;
         for (int first = 0; first < joints; first += a_row) {
             const auto row = ui.row(2 * a_row);
@@ -257,7 +259,7 @@ void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
         return;
     }
     constexpr std::array base{"X", "Y", "Z"}, tool{"x", "y", "z"};
-    const auto& names = now.session.hand.arm_frame == ArmFrame::base ? base : tool;
+    const auto& names = now.view_state.manual.arm_frame == ArmFrame::base ? base : tool;
     for (int axis = 0; axis < 3; ++axis) {
         const auto row = ui.row(2);
         for (const double sign : {-1.0, 1.0}) {
@@ -267,15 +269,15 @@ void ArmJogPanel::draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const {
     }
 }
 
-void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const actions::HandSettings& hand = now.session.hand;
+void ArmJogPanel::draw_speed(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const actions::ManualSettings& manual = now.view_state.manual;
     const auto labels = ui.label_share(0.3F);
-    const auto at = std::ranges::find(arm_jog_steps, hand.step);
+    const auto at = std::ranges::find(arm_jog_steps, manual.step);
     const int chosen = at == arm_jog_steps.end() ? 0 : static_cast<int>(at - arm_jog_steps.begin());
     if (const auto step = ui.segmented(
             "step", "Step", chosen, arm_jog_step_options, "Jog increment, degrees or mm per press")) {
-        ask.show([step = arm_jog_steps[static_cast<std::size_t>(*step)]](actions::Session& session) {
-            session.hand.step = step;
+        ask.show([step = arm_jog_steps[static_cast<std::size_t>(*step)]](actions::ViewState& view_state) {
+            view_state.manual.step = step;
         });
     }
     const widgets::FieldInfo percent{
@@ -285,16 +287,16 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
         "Jog speed, percent of the maximum of 30 \u00b0/s and 150 mm/s; a PMAC is limited to 5 \u00b0/s",
         1.0,
         100.0};
-    if (const auto value = widgets::slider(ui, hand.arm_percent, percent)) {
-        ask.show([value = *value](actions::Session& session) { session.hand.arm_percent = value; });
+    if (const auto value = widgets::slider(ui, manual.arm_percent, percent)) {
+        ask.show([value = *value](actions::ViewState& view_state) { view_state.manual.arm_percent = value; });
     }
     if (const auto on = ui.toggle("keys",
                                   "Keyboard",
-                                  hand.arm_keys,
+                                  manual.arm_keys,
                                   "Keyboard jog. 1 to 5: select joint; + and -: jog while held; /: stop; H: "
                                   "home; K: disable the motors; Q: stop the program; S: send the program; R: "
                                   "run it; I: load settings; colon: terminal; X: turn keyboard jog off")) {
-        ask.show([on = *on](actions::Session& session) { session.hand.arm_keys = on; });
+        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.arm_keys = on; });
     }
     if (const int joint = joint_of_keys(now); joint >= 0) {
         ui.note("Joint " + now.arm.arm().joint(joint).name +
@@ -302,7 +304,7 @@ void ArmJogPanel::draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
 }
 
-void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ArmJogPanel::draw_power(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     if (!now.arm_connected()) {
         return;
     }
@@ -323,9 +325,9 @@ void ArmJogPanel::draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) con
     action_button(ui, now, ask, catalogue_, "machine.emergency_stop", Rank::danger, "Kill");
 }
 
-void ArmJogPanel::stop_all(const Workbench& now, ActionQueue& ask) const {
-    ask.arm([](actions::ArmBench& bench) { bench.stop(); });
-    const bool is_jog = now.controller.status.activity == drivers::Activity::jog;
+void ArmJogPanel::stop_all(const FrameState& now, ActionQueue& ask) const {
+    ask.arm([](actions::ArmWorkspace& workspace) { workspace.stop(); });
+    const bool is_jog = now.connection.status.activity == drivers::Activity::jog;
     if (now.arm_connected() && is_jog) {
         ask.tell([](drivers::Driver& driver) { driver.stop_jog(); });
     } else if (now.arm_connected() && catalogue_.find("machine.stop").permission(now).allowed) {
@@ -333,8 +335,8 @@ void ArmJogPanel::stop_all(const Workbench& now, ActionQueue& ask) const {
     }
 }
 
-void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish) {
-    if (!now.session.hand.arm_keys || ui.was_typing() || now.asks()) {
+void ArmJogPanel::obey_keys(Ui& ui, const FrameState& now, ActionQueue& ask, Wish& wish) {
+    if (!now.view_state.manual.arm_keys || ui.was_typing() || now.asks()) {
         return;
     }
     using render::Key;
@@ -342,9 +344,9 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
         stop_all(now, ask);
     }
     if (render::key_pressed(Key::semicolon)) { // what comes with it is typed there
-        ask.show([](actions::Session& session) {
-            session.panes.lower_shown = true;
-            session.lower_tab_now() = actions::LowerTab::console;
+        ask.show([](actions::ViewState& view_state) {
+            view_state.panes.lower_shown = true;
+            view_state.lower_tab_now() = actions::LowerTab::console;
         });
         ui.focus_field("lower/command");
         return;
@@ -354,7 +356,7 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
     for (int n = 0; n < std::min(joints, 5); ++n) {
         // With Shift, too: where + is Shift and =, it is down while another joint is chosen.
         if (render::key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + n))) {
-            ask.show([n](actions::Session& session) { session.hand.arm_joint = n; });
+            ask.show([n](actions::ViewState& view_state) { view_state.manual.arm_joint = n; });
         }
     }
     const bool held = render::key_down(Key::equal) || render::key_down(Key::minus);
@@ -389,7 +391,7 @@ void ArmJogPanel::obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish
         }
     }
     if (render::key_pressed(Key::x)) {
-        ask.show([](actions::Session& session) { session.hand.arm_keys = false; });
+        ask.show([](actions::ViewState& view_state) { view_state.manual.arm_keys = false; });
     }
 }
 

@@ -17,15 +17,15 @@ public:
     explicit ArmJogPanel(const actions::Catalogue& catalogue)
         : catalogue_(catalogue), connection_(catalogue) {}
 
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
     class Wish;
-    void draw_buttons(Ui& ui, const Workbench& now, Wish& wish) const;
-    void draw_speed(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_power(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void stop_all(const Workbench& now, ActionQueue& ask) const;
-    void obey_keys(Ui& ui, const Workbench& now, ActionQueue& ask, Wish& wish);
+    void draw_buttons(Ui& ui, const FrameState& now, Wish& wish) const;
+    void draw_speed(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_power(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void stop_all(const FrameState& now, ActionQueue& ask) const;
+    void obey_keys(Ui& ui, const FrameState& now, ActionQueue& ask, Wish& wish);
 
     const actions::Catalogue& catalogue_;
     ConnectionPanel connection_;

@@ -1,7 +1,7 @@
 #include "ui/panels/arm_motors.h"
 
 #include "core/base/text.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/joint_units.h"
 #include "ui/widgets/table.h"
 
@@ -35,8 +35,8 @@ std::string joint_number(const ArmJoint& joint,
 /// One joint as its file has it and, where a controller drives it, as that tells.
 class Row {
 public:
-    Row(const Workbench& now, int joint) : joint_(now.arm.arm().joint(joint)), at_(now.arm.joints()[joint]) {
-        const drivers::DriverStatus& status = now.controller.status;
+    Row(const FrameState& now, int joint) : joint_(now.arm.arm().joint(joint)), at_(now.arm.joints()[joint]) {
+        const drivers::DriverStatus& status = now.connection.status;
         const auto n = static_cast<std::size_t>(joint);
         if (!now.arm_connected() || joint >= status.position.size()) {
             return;
@@ -47,7 +47,7 @@ public:
         }
         motor_ = n < status.motors.size() ? std::optional(status.motors[n]) : std::nullopt;
         limits_ =
-            n < now.controller.limits.axes.size() ? now.controller.limits.axes[n] : MachineLimits::Axis{};
+            n < now.connection.limits.axes.size() ? now.connection.limits.axes[n] : MachineLimits::Axis{};
     }
 
     [[nodiscard]] std::string cell(int column) const {
@@ -100,7 +100,7 @@ private:
 
 } // namespace
 
-void arm_motors(Ui& ui, const Workbench& now) {
+void arm_motors(Ui& ui, const FrameState& now) {
     if (!now.arm.loaded()) {
         ui.note("No arm is loaded.");
         return;

@@ -5,6 +5,6 @@
 
 namespace millwright::panels {
 
-void arm_motors(Ui& ui, const Workbench& now);
+void arm_motors(Ui& ui, const FrameState& now);
 
 } // namespace millwright::panels

@@ -5,7 +5,7 @@
 #include "core/base/units.h"
 #include "core/kinematics/tool_roll.h"
 #include "core/project/assets.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/arm_path_fields.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/internal/joint_units.h"
@@ -26,13 +26,13 @@ namespace millwright::panels {
 
 namespace {
 
-using actions::ArmBench;
+using actions::ArmWorkspace;
 using arm::ArmJoint;
 using arm::JointKind;
 
 constexpr double least_manipulability = 1e-3; // below: next to singular
 
-widgets::Permission by_hand(const Workbench& now) {
+widgets::Permission by_hand(const FrameState& now) {
     return now.arm_connected() ? widgets::Permission::refused(
                                      "The view follows the connected controller: jog the arm instead.")
                                : widgets::Permission{};
@@ -86,13 +86,13 @@ bool slides(const arm::ArmModel& arm) {
 }
 
 /// Whether the goal's roll matters, and which it is.
-void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
-    const auto& roll = bench.goal_roll();
+void roll_fields(Ui& ui, const ArmWorkspace& workspace, ActionQueue& ask) {
+    const auto& roll = workspace.goal_roll();
     if (const auto on = ui.toggle("roll_matters",
                                   "Set roll",
                                   roll.has_value(),
                                   "Off: the rotation of the tool about its axis is free")) {
-        ask.arm([on = *on](ArmBench& b) {
+        ask.arm([on = *on](ArmWorkspace& b) {
             b.set_goal_roll(on ? std::optional(kinematics::roll_of(b.tool().linear())) : std::nullopt);
         });
     }
@@ -108,7 +108,7 @@ void roll_fields(Ui& ui, const ArmBench& bench, ActionQueue& ask) {
                                        {},
                                        2};
         if (const auto wanted = ui.number(to_degrees(*roll), field)) {
-            ask.arm([to = from_degrees(*wanted)](ArmBench& b) { b.set_goal_roll(to); });
+            ask.arm([to = from_degrees(*wanted)](ArmWorkspace& b) { b.set_goal_roll(to); });
         }
     }
 }
@@ -124,7 +124,7 @@ std::string tip_place_text(const Vec3& tip) {
 
 } // namespace
 
-void ArmPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ArmPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_arm(ui, now, ask);
     if (!now.arm.loaded()) {
         return;
@@ -135,7 +135,7 @@ void ArmPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_tool(ui, now);
 }
 
-void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ArmPanel::draw_arm(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (arms_.empty()) {
         arms_ = project::arm_ids(now.assets);
     }
@@ -155,23 +155,25 @@ void ArmPanel::draw_arm(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto permitted = ui.permitted(by_hand(now));
     if (const auto chosen =
             ui.choice("arm", "Arm", at, options, "Included arms and those opened with Arm > Open an arm")) {
-        ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmBench& bench) { bench.load(name); });
-        ask.show([](actions::Session& session) {
-            session.fit_wanted_in(actions::Workspace::arm) = true;
+        ask.arm([name = arms_[static_cast<std::size_t>(*chosen)]](ArmWorkspace& workspace) {
+            workspace.load(name);
+        });
+        ask.show([](actions::ViewState& view_state) {
+            view_state.fit_wanted_in(actions::Workspace::arm) = true;
         }); // arms differ in size
     }
 }
 
-void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ArmPanel::draw_joints(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("joints", "Joints");
     if (!section) {
         return;
     }
-    if (now.arm_connected() && !now.controller.status.position_known) {
+    if (now.arm_connected() && !now.connection.status.position_known) {
         (void)widgets::banner(ui,
                               "not_known",
                               {widgets::Severity::warning,
-                               now.controller.status.velocity.size() == 0 // as last told
+                               now.connection.status.velocity.size() == 0 // as last told
                                    ? "Position unknown: these are the last angles that the card reported, "
                                      "and the arm may have moved since. Inspect the arm."
                                    : "Position unknown: these angles are relative to the pose at which the "
@@ -199,8 +201,8 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
                                       2};
         if (const auto value =
                 widgets::number_slider(ui, in_joint_unit(joint, position), info, by_hand(now))) {
-            ask.arm([n, wanted = from_joint_unit(joint, *value)](ArmBench& bench) {
-                bench.set_joint(n, wanted);
+            ask.arm([n, wanted = from_joint_unit(joint, *value)](ArmWorkspace& workspace) {
+                workspace.set_joint(n, wanted);
             });
         }
     }
@@ -210,7 +212,7 @@ void ArmPanel::draw_joints(Ui& ui, const Workbench& now, ActionQueue& ask) const
     }
 }
 
-void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
+void ArmPanel::draw_tool(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("tool", "Tool");
     if (!section) {
         return;
@@ -235,32 +237,32 @@ void ArmPanel::draw_tool(Ui& ui, const Workbench& now) const {
              measure < least_manipulability ? "singular" : "");
 }
 
-void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ArmPanel::draw_goal(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("goal", "Goal");
     if (!section) {
         return;
     }
-    const ArmBench& bench = now.arm;
-    const Frame tool = bench.tool();
-    const Vec3 tip = bench.goal() ? bench.goal()->tip : Vec3(tool.translation());
-    const Vec3 axis = bench.goal() ? bench.goal()->axis : Vec3(tool.linear().col(2));
+    const ArmWorkspace& workspace = now.arm;
+    const Frame tool = workspace.tool();
+    const Vec3 tip = workspace.goal() ? workspace.goal()->tip : Vec3(tool.translation());
+    const Vec3 axis = workspace.goal() ? workspace.goal()->axis : Vec3(tool.linear().col(2));
     const widgets::FieldInfo place{
         "tip", "Tip", "mm", "Target position of the tip in the base frame", -1e5, 1e5, {}, 2};
     if (const auto wanted = ui.vec3("tip", "Tip", {tip.x(), tip.y(), tip.z()}, place)) {
-        ask.arm([axis, p = *wanted](ArmBench& b) { b.set_goal(Vec3(p[0], p[1], p[2]), axis); });
+        ask.arm([axis, p = *wanted](ArmWorkspace& b) { b.set_goal(Vec3(p[0], p[1], p[2]), axis); });
     }
     const widgets::FieldInfo direction{
         "axis", "Axis", {}, "Target direction of the tool axis; need not be a unit vector", -1e3, 1e3, {}, 3};
     if (const auto wanted = ui.vec3("axis", "Axis", {axis.x(), axis.y(), axis.z()}, direction)) {
-        ask.arm([tip, d = *wanted](ArmBench& b) { b.set_goal(tip, Vec3(d[0], d[1], d[2])); });
+        ask.arm([tip, d = *wanted](ArmWorkspace& b) { b.set_goal(tip, Vec3(d[0], d[1], d[2])); });
     }
-    roll_fields(ui, bench, ask);
+    roll_fields(ui, workspace, ask);
     if (const auto on = ui.toggle(
             "project",
             "Snap axis to plane",
-            bench.projects(),
+            workspace.projects(),
             "Rotate the tool axis by the smallest angle to a direction that five joints can reach")) {
-        ask.arm([on = *on](ArmBench& b) { b.set_projects(on); });
+        ask.arm([on = *on](ArmWorkspace& b) { b.set_projects(on); });
     }
     {
         const auto row = ui.row(2);
@@ -268,23 +270,24 @@ void ArmPanel::draw_goal(Ui& ui, const Workbench& now, ActionQueue& ask) const {
                       "Use current pose",
                       {},
                       {{}, widgets::Rank::normal, -1.0F, "Copy the current pose of the arm"})) {
-            ask.arm([](ArmBench& b) { b.set_goal_from_tool(); });
+            ask.arm([](ArmWorkspace& b) { b.set_goal_from_tool(); });
         }
         const auto allowed =
-            bench.goal() ? widgets::Permission{} : widgets::Permission::refused("No goal is set.");
+            workspace.goal() ? widgets::Permission{} : widgets::Permission::refused("No goal is set.");
         if (ui.button("drop", "Clear", allowed, {{}, widgets::Rank::normal, -1.0F, {}})) {
-            ask.arm([](ArmBench& b) { b.drop_goal(); });
+            ask.arm([](ArmWorkspace& b) { b.drop_goal(); });
         }
     }
-    if (bench.goal()) {
+    if (workspace.goal()) {
         draw_solutions(ui, now, ask);
     }
 }
 
-void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ArmBench& bench = now.arm;
-    if (bench.solutions().empty()) {
-        (void)widgets::banner(ui, "reason", {widgets::Severity::warning, as_sentence(bench.reason()), {}});
+void ArmPanel::draw_solutions(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const ArmWorkspace& workspace = now.arm;
+    if (workspace.solutions().empty()) {
+        (void)widgets::banner(
+            ui, "reason", {widgets::Severity::warning, as_sentence(workspace.reason()), {}});
         return;
     }
     // Of any joint from where it stands.
@@ -292,14 +295,14 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
         {{"Solution", {}, 1.6F}, {"Max. travel", "\u00b0", 1.0F, true}}};
     constexpr std::array<widgets::Column, 3> sliding{
         {{"Solution", {}, 1.0F}, {"Turn", "\u00b0", 1.0F, true}, {"Slide", "mm", 1.0F, true}}};
-    const bool with_slide = slides(bench.arm());
+    const bool with_slide = slides(workspace.arm());
     widgets::TableView view;
     view.columns =
         with_slide ? std::span<const widgets::Column>(sliding) : std::span<const widgets::Column>(turning);
-    view.rows = std::ssize(bench.solutions());
-    view.chosen = bench.chosen();
+    view.rows = std::ssize(workspace.solutions());
+    view.chosen = workspace.chosen();
     view.cell = [&](std::ptrdiff_t row, int column) {
-        const actions::ArmSolution& solution = bench.solutions()[static_cast<std::size_t>(row)];
+        const actions::ArmSolution& solution = workspace.solutions()[static_cast<std::size_t>(row)];
         if (column == 1) {
             return fixed(to_degrees(solution.farthest_turn), 1);
         }
@@ -310,11 +313,11 @@ void ArmPanel::draw_solutions(Ui& ui, const Workbench& now, ActionQueue& ask) co
     };
     view.row_id = [](std::ptrdiff_t row) { return fmt::format("solution_{}", row + 1); };
     if (const auto row = widgets::table(ui, "solutions", view)) {
-        ask.arm([n = static_cast<int>(*row)](ArmBench& b) { b.choose(n); });
+        ask.arm([n = static_cast<int>(*row)](ArmWorkspace& b) { b.choose(n); });
     }
 }
 
-void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ArmPanel::draw_motion(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const bool real = now.arm_connected();
     {
         constexpr float roomy = 480.0F; // all labels stand whole
@@ -337,7 +340,7 @@ void ArmPanel::draw_motion(Ui& ui, const Workbench& now, ActionQueue& ask) const
                       widgets::Rank::normal,
                       narrow ? "Clear" : "Clear trace");
     }
-    const drivers::DriverStatus& status = now.controller.status;
+    const drivers::DriverStatus& status = now.connection.status;
     const bool alarm = status.state == drivers::DriverState::alarm; // which stands above the drawing
     if (real && !status.message.empty() && !alarm) { // below all buttons, so that it moves none
         ui.text(as_sentence(status.message), widgets::Tone::warning);

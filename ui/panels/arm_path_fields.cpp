@@ -3,7 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
 
@@ -21,7 +21,7 @@ constexpr std::array<widgets::Option, 2> sources{
     {{"project", "Project", {}, "Program generated from the project's surface"},
      {"file", "Opened file", {}, "G-code file that is open in the Program workspace, such as a plot"}}};
 
-void place_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void place_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const project::PathPlace& place = now.project.arm.path;
     const widgets::FieldInfo at{
         "at", "Origin", "mm", "Position of the program zero in the base frame", -1e5, 1e5, {}, 1};
@@ -117,41 +117,42 @@ void reach_text(Ui& ui, const actions::ArmPathAnswer& path) {
 }
 
 /// Why there is nothing to show; empty if there is.
-std::string why_none(const Workbench& now) {
+std::string why_none(const FrameState& now) {
     if (now.arm_program().program) {
         return {};
     }
-    if (!now.session.hand.arm_path_of_file || !now.opened) {
+    if (!now.view_state.manual.arm_path_of_file || !now.opened) {
         return "The project has no program yet.";
     }
     return now.opened->no_motion.empty() ? "Reading the file \u2026" : now.opened->no_motion;
 }
 
-void source_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void source_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!now.opened) {
         return;
     }
-    const int source = now.session.hand.arm_path_of_file ? 1 : 0;
+    const int source = now.view_state.manual.arm_path_of_file ? 1 : 0;
     if (const auto chosen = ui.segmented("source", "Program", source, sources)) {
-        ask.show(
-            [of_file = *chosen == 1](actions::Session& session) { session.hand.arm_path_of_file = of_file; });
+        ask.show([of_file = *chosen == 1](actions::ViewState& view_state) {
+            view_state.manual.arm_path_of_file = of_file;
+        });
     }
 }
 
 } // namespace
 
-void arm_path_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+void arm_path_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
     const auto section = ui.section("path", "Path on the arm");
     if (!section) {
         return;
     }
     source_field(ui, now, ask);
-    const bool shown = now.session.hand.arm_path;
+    const bool shown = now.view_state.manual.arm_path;
     const std::string none = why_none(now);
     const auto can_show = none.empty() ? widgets::Permission{} : widgets::Permission::refused(none);
     if (const auto on =
             ui.toggle("shown", "Show the program", shown, "Green: reachable; red: out of reach", can_show)) {
-        ask.show([on = *on](actions::Session& session) { session.hand.arm_path = on; });
+        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.arm_path = on; });
     }
     if (!shown || !none.empty()) {
         return;

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
@@ -44,7 +44,7 @@ std::string joints_text(const TaughtPoint& point) {
 
 } // namespace
 
-void ArmPointsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ArmPointsPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     // What was put down just now is what is meant.
     chosen_ =
         std::min(now.arm.new_point().value_or(chosen_), static_cast<int>(now.project.arm.points.size()) - 1);
@@ -54,7 +54,7 @@ void ArmPointsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     draw_table(ui, now);
     if (now.arm.new_point()) {
-        ask.arm([](actions::ArmBench& bench) { bench.set_new_point(std::nullopt); });
+        ask.arm([](actions::ArmWorkspace& workspace) { workspace.set_new_point(std::nullopt); });
     }
 }
 
@@ -66,7 +66,7 @@ void ArmPointsPanel::swap_with(ActionQueue& ask, int other) {
     chosen_ = other;
 }
 
-void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ArmPointsPanel::draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const int last = static_cast<int>(now.project.arm.points.size()) - 1;
     const auto need = [](bool allowed, const char* why) {
         return allowed ? Permission{} : Permission::refused(why);
@@ -78,15 +78,16 @@ void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask
                              ? Permission::refused("The arm is connected: play the points instead.")
                              : need(chosen_ >= 0, "Select a point first.");
     if (ui.button("go_to", "Show", picture, {{}, Rank::normal, -1.0F, "Show the arm at this point"})) {
-        ask.arm([point = now.project.arm.points[static_cast<std::size_t>(chosen_)]](actions::ArmBench& arm) {
-            auto joints = arm.joints();
-            for (Eigen::Index n = 0; n < std::min(joints.size(), std::ssize(point.joints_deg)); ++n) {
-                const double told = point.joints_deg[static_cast<std::size_t>(n)];
-                const bool turns = arm.arm().joint(static_cast<int>(n)).kind == arm::JointKind::revolute;
-                joints[n] = turns ? from_degrees(told) : told;
-            }
-            arm.set_joints(joints);
-        });
+        ask.arm(
+            [point = now.project.arm.points[static_cast<std::size_t>(chosen_)]](actions::ArmWorkspace& arm) {
+                auto joints = arm.joints();
+                for (Eigen::Index n = 0; n < std::min(joints.size(), std::ssize(point.joints_deg)); ++n) {
+                    const double told = point.joints_deg[static_cast<std::size_t>(n)];
+                    const bool turns = arm.arm().joint(static_cast<int>(n)).kind == arm::JointKind::revolute;
+                    joints[n] = turns ? from_degrees(told) : told;
+                }
+                arm.set_joints(joints);
+            });
     }
     if (ui.button("up", "Up", need(chosen_ > 0, "This is the first point."), {{}, Rank::normal, -1.0F, {}})) {
         swap_with(ask, chosen_ - 1);
@@ -106,7 +107,7 @@ void ArmPointsPanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask
 }
 
 /// Name, way and speed of the chosen point in one line.
-void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ArmPointsPanel::draw_chosen(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto n = static_cast<std::size_t>(chosen_);
     const TaughtPoint& point = now.project.arm.points[n];
     const float whole = ui.rest().w;
@@ -159,7 +160,7 @@ void ArmPointsPanel::draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
-void ArmPointsPanel::draw_table(Ui& ui, const Workbench& now) {
+void ArmPointsPanel::draw_table(Ui& ui, const FrameState& now) {
     const std::vector<TaughtPoint>& points = now.project.arm.points;
     constexpr std::array<widgets::Column, 5> columns{{{"", {}, 0.3F, true},
                                                       {"Name", {}, 1.4F},

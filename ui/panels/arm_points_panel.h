@@ -10,12 +10,12 @@ public:
     /// `catalogue` must outlive it.
     explicit ArmPointsPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
 
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_chosen(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_table(Ui& ui, const Workbench& now);
+    void draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_chosen(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_table(Ui& ui, const FrameState& now);
     void swap_with(ActionQueue& ask, int other);
 
     const actions::Catalogue& catalogue_;

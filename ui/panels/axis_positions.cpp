@@ -38,7 +38,7 @@ std::vector<widgets::AxisReading> readings(const kinematics::MachineModel& machi
     return result;
 }
 
-std::string why_not_known(const Workbench& now) {
+std::string why_not_known(const FrameState& now) {
     if (!now.in_file() || !now.opened->finished) {
         return "No program yet.";
     }
@@ -76,7 +76,7 @@ TravelWords travel_words(std::span<const widgets::AxisReading> axes) {
     return {"Within travel limits", widgets::Tone::muted};
 }
 
-void axis_positions(Ui& ui, const Workbench& now) {
+void axis_positions(Ui& ui, const FrameState& now) {
     const auto machine = now.machine();
     if (!machine) {
         return;

@@ -12,7 +12,7 @@ namespace millwright::panels {
 
 /// The axes of the shown machine, near-limit colours, the tip and the tool axis on the part. Says why where
 /// nothing is known.
-void axis_positions(Ui& ui, const Workbench& now);
+void axis_positions(Ui& ui, const FrameState& now);
 
 /// Of an axis at `position`, mm or rad. Near means within a twentieth of the travel of its end; the ends are
 /// of the travel, since many a machine is homed there.

@@ -1,6 +1,6 @@
 #include "ui/panels/color_dialog.h"
 
-#include "ui/actions/workshop.h"
+#include "ui/actions/app_controller.h"
 #include "ui/widgets/sketch.h"
 
 #include <glm/vec3.hpp>
@@ -43,7 +43,7 @@ void draw_color_swatch(Ui& ui, std::string_view id, const std::optional<glm::vec
 
 } // namespace
 
-void color_dialog(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void color_dialog(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto dialog = ui.dialog("colors", "View colours", ui.px(color_dialog_width));
     if (!dialog) {
         return;
@@ -51,30 +51,30 @@ void color_dialog(Ui& ui, const Workbench& now, ActionQueue& ask) {
     ui.note("Enter colours as #rrggbb. Empty fields use the theme colour.");
     const render::ViewColors colors = render::view_colors(
         ui.look().theme == widgets::Theme::dark ? render::Theme::dark : render::Theme::light,
-        now.session.colors);
+        now.view_state.colors);
     for (const render::LayerColorInfo& info : render::layer_color_infos()) {
         draw_color_swatch(ui, info.id, render::color_of(colors, info.which));
-        const auto& chosen = now.session.colors.of(info.which);
+        const auto& chosen = now.view_state.colors.of(info.which);
         const std::string text = chosen ? render::color_text(*chosen) : std::string();
         if (const auto typed = ui.expression(
                 info.id, info.label, text, fault_of_color, "Colour as #rrggbb; empty: theme colour")) {
-            ask.files([which = info.which, color = render::color_from(*typed)](actions::Workshop& workshop) {
-                workshop.choose_color(which, color);
+            ask.files([which = info.which, color = render::color_from(*typed)](actions::AppController& app) {
+                app.choose_color(which, color);
             });
         }
     }
     ui.gap();
     const auto row = ui.row(2);
     if (ui.button("theme", "Reset to theme", {}, {.tip = "Clear all fields"})) {
-        ask.files([](actions::Workshop& workshop) {
+        ask.files([](actions::AppController& app) {
             for (const render::LayerColorInfo& info : render::layer_color_infos()) {
-                workshop.choose_color(info.which, std::nullopt);
+                app.choose_color(info.which, std::nullopt);
             }
         });
     }
     if (ui.button("close", "Close", {}, {.rank = widgets::Rank::primary, .tip = "Esc"}) ||
         ui.escape_pressed()) {
-        ask.show([](actions::Session& session) { session.colors_shown = false; });
+        ask.show([](actions::ViewState& view_state) { view_state.colors_shown = false; });
     }
 }
 

@@ -5,7 +5,7 @@
 
 namespace millwright::panels {
 
-/// For as long as Session::colors_shown.
-void color_dialog(Ui& ui, const Workbench& now, ActionQueue& ask);
+/// For as long as ViewState::colors_shown.
+void color_dialog(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

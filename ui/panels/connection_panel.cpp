@@ -2,10 +2,10 @@
 
 #include "core/base/sentences.h"
 #include "core/links/serial_ports.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
+#include "ui/panels/manual_position_fields.h"
 #include "ui/panels/serial_fields.h"
-#include "ui/panels/stands_fields.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
 
@@ -43,19 +43,21 @@ int index_of(const DriverRow& row) {
 }
 
 /// Changes one thing of what was chosen.
-template <class Change> void change_hand_settings(ActionQueue& ask, Change&& change) {
-    ask.show([change = std::forward<Change>(change)](actions::Session& session) { change(session.hand); });
+template <class Change> void change_manual_settings(ActionQueue& ask, Change&& change) {
+    ask.show([change = std::forward<Change>(change)](actions::ViewState& view_state) {
+        change(view_state.manual);
+    });
 }
 
 /// What a person should do about an alarm.
-std::string advice(const Workbench& now) {
-    if (now.controller.status.link_lost) {
+std::string advice(const FrameState& now) {
+    if (now.connection.status.link_lost) {
         return "Inspect the machine, then reconnect. Reconnecting does not move it.";
     }
-    if (const std::string_view of_driver = now.controller.row().in_alarm; !of_driver.empty()) {
+    if (const std::string_view of_driver = now.connection.row().in_alarm; !of_driver.empty()) {
         return std::string(of_driver);
     }
-    return now.controller.can.home
+    return now.connection.can.home
                ? "Inspect the machine, then home it - or unlock it if you are sure the position is correct."
                : "Inspect the machine, then unlock it.";
 }
@@ -76,7 +78,7 @@ std::string driver_state_text(const drivers::DriverStatus& status) {
 }
 
 /// The counts per degree are those of one arm's drives, whichever arm is drawn.
-void draw_note(Ui& ui, const Workbench& now, const DriverRow& row) {
+void draw_note(Ui& ui, const FrameState& now, const DriverRow& row) {
     if (!row.arm.empty() && now.arm.loaded() && now.arm.name() != row.arm) {
         (void)widgets::banner(ui,
                               "other_arm",
@@ -114,8 +116,8 @@ public:
 private:
     template <class Value, class Set> void change(const std::optional<Value>& value, Set set) const {
         if (value) {
-            change_hand_settings(
-                ask_, [value = *value, set](actions::HandSettings& hand) { set(hand.choice, value); });
+            change_manual_settings(
+                ask_, [value = *value, set](actions::ManualSettings& manual) { set(manual.choice, value); });
         }
     }
 
@@ -127,8 +129,8 @@ private:
 
 } // namespace
 
-std::string controller_text(const Workbench& now) {
-    const actions::ControllerView& machine = now.controller;
+std::string controller_text(const FrameState& now) {
+    const actions::ConnectionView& machine = now.connection;
     const std::string name = std::string(machine.row().within_a_text) +
                              (machine.choice.address.empty() ? "" : " at " + machine.choice.address);
     switch (machine.link) {
@@ -145,9 +147,9 @@ std::string controller_text(const Workbench& now) {
            (machine.status.position_known ? "" : ", position unknown");
 }
 
-std::string alarm_text(const Workbench& now) {
-    const drivers::DriverStatus& status = now.controller.status;
-    if (!now.controller.connected() || status.state != DriverState::alarm) {
+std::string alarm_text(const FrameState& now) {
+    const drivers::DriverStatus& status = now.connection.status;
+    if (!now.connection.connected() || status.state != DriverState::alarm) {
         return "";
     }
     return with_sentence(status.message.empty() ? "Alarm" : capitalised(status.message), advice(now));
@@ -163,27 +165,27 @@ void ConnectionPanel::look_for_ports() {
     looked_ = true;
 }
 
-void ConnectionPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ConnectionPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("connection", "Machine");
     if (!section) {
         return;
     }
-    if (!now.controller.connected()) {
+    if (!now.connection.connected()) {
         draw_choice(ui, now, ask);
     }
     draw_state(ui, now, ask);
 }
 
-void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const DriverChoice& choice = now.session.hand.choice;
+void ConnectionPanel::draw_choice(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const DriverChoice& choice = now.view_state.manual.choice;
     const auto permitted =
-        ui.permitted(now.controller.link == LinkState::none
+        ui.permitted(now.connection.link == LinkState::none
                          ? widgets::Permission{}
                          : widgets::Permission::refused("The machine is being connected."));
     const DriverRow& row = machine::driver_row(choice.driver);
     if (const auto chosen = ui.choice("driver", "Driver", index_of(row), driver_options())) {
         const std::string_view name = machine::driver_rows()[static_cast<std::size_t>(*chosen)].name;
-        change_hand_settings(ask, [name](actions::HandSettings& hand) { choose_driver(hand, name); });
+        change_manual_settings(ask, [name](actions::ManualSettings& manual) { choose_driver(manual, name); });
     }
     if (row.address) {
         draw_address(ui, now, ask);
@@ -194,18 +196,19 @@ void ConnectionPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask
     draw_note(ui, now, row);
 }
 
-void ConnectionPanel::draw_address(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const DriverChoice& choice = now.session.hand.choice;
+void ConnectionPanel::draw_address(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const DriverChoice& choice = now.view_state.manual.choice;
     const machine::DriverAddress& of = *machine::driver_row(choice.driver).address;
     if (const auto address = ui.text_field("address", of.label, choice.address, of.tip)) {
-        change_hand_settings(
-            ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
+        change_manual_settings(
+            ask, [address = *address](actions::ManualSettings& manual) { manual.choice.address = address; });
     }
     if (of.serial) {
         draw_ports(ui, now, ask);
         if (const auto address = serial_fields(ui, choice.address)) {
-            change_hand_settings(
-                ask, [address = *address](actions::HandSettings& hand) { hand.choice.address = address; });
+            change_manual_settings(ask, [address = *address](actions::ManualSettings& manual) {
+                manual.choice.address = address;
+            });
         }
     }
 }
@@ -220,14 +223,14 @@ std::string at_path(const std::string& address, const std::string& path) {
 
 } // namespace
 
-void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ConnectionPanel::draw_ports(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!looked_) {
         look_for_ports();
     }
     if (ports_.empty()) {
         ui.note("No serial ports were found on this computer.");
     } else {
-        const auto chosen_port = serial_port_of(now.session.hand.choice.address);
+        const auto chosen_port = serial_port_of(now.view_state.manual.choice.address);
         std::vector<widgets::Option> options{{"none", "Choose ..."}};
         int at = 0;
         for (const Port& port : ports_) {
@@ -235,10 +238,10 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
             options.push_back({port.path, port.label});
         }
         if (const auto chosen = ui.choice("ports", "Detected", at, options); chosen && *chosen > 0) {
-            change_hand_settings(
+            change_manual_settings(
                 ask,
-                [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::HandSettings& hand) {
-                    hand.choice.address = at_path(hand.choice.address, path);
+                [path = ports_[static_cast<std::size_t>(*chosen) - 1].path](actions::ManualSettings& manual) {
+                    manual.choice.address = at_path(manual.choice.address, path);
                 });
         }
     }
@@ -247,17 +250,17 @@ void ConnectionPanel::draw_ports(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
-bool ConnectionPanel::warns(const actions::ControllerView& machine) {
+bool ConnectionPanel::warns(const actions::ConnectionView& machine) {
     return machine.status.state != DriverState::alarm && !machine.status.message.empty();
 }
 
-bool ConnectionPanel::has_messages(const actions::ControllerView& machine) {
+bool ConnectionPanel::has_messages(const actions::ConnectionView& machine) {
     return machine.connected() && (warns(machine) || !machine.status.position_doubt.empty() ||
-                                   asks_where_it_stands(machine) || !machine.remarks.empty());
+                                   needs_manual_position(machine) || !machine.remarks.empty());
 }
 
-void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const actions::ControllerView& machine = now.controller;
+void ConnectionPanel::draw_messages(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const actions::ConnectionView& machine = now.connection;
     if (!has_messages(machine)) {
         return;
     }
@@ -275,17 +278,18 @@ void ConnectionPanel::draw_messages(Ui& ui, const Workbench& now, ActionQueue& a
             action_button(ui, now, ask, catalogue_, "machine.trust_position");
         }
     }
-    if (asks_where_it_stands(machine)) {
-        stands_fields(ui, now, ask);
+    if (needs_manual_position(machine)) {
+        manual_position_fields(ui, now, ask);
     }
     for (const std::string& remark : machine.remarks) {
         ui.note(remark);
     }
 }
 
-void ConnectionPanel::draw_state(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const actions::ControllerView& machine = now.controller;
-    const DriverChoice& chosen = now.session.hand.choice; // a link that nobody wants any more is not told of
+void ConnectionPanel::draw_state(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const actions::ConnectionView& machine = now.connection;
+    const DriverChoice& chosen =
+        now.view_state.manual.choice; // a link that nobody wants any more is not told of
     const bool is_of_it = machine.link != LinkState::none || (machine.choice.driver == chosen.driver &&
                                                               machine.choice.address == chosen.address);
     if (machine.failure && is_of_it) {

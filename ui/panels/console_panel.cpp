@@ -2,8 +2,8 @@
 
 #include "core/base/text.h"
 #include "core/base/text_search.h"
-#include "ui/panels/internal/hand_fields.h"
-#include "ui/panels/line_name.h"
+#include "ui/panels/command_line_label.h"
+#include "ui/panels/internal/manual_fields.h"
 #include "ui/widgets/listing.h"
 #include "ui/widgets/notices.h"
 
@@ -48,31 +48,31 @@ std::string text_of(const ConsoleLine& line, double start) {
     return fixed(line.time - start, 2) + (line.sent ? "  > " : "  < ") + line.text;
 }
 
-Permission can_type(const Workbench& now) {
-    if (!now.controller.connected()) {
+Permission can_type(const FrameState& now) {
+    if (!now.connection.connected()) {
         return Permission::refused("No machine is connected.");
     }
-    if (!now.controller.can.command) {
+    if (!now.connection.can.command) {
         return Permission::refused("This machine does not accept single commands.");
     }
     return {};
 }
 
-Permission can_send(const Workbench& now) {
-    if (now.controller.row().kind == machine::MachineKind::arm && !now.controller.status.link_lost) {
+Permission can_send(const FrameState& now) {
+    if (now.connection.row().kind == machine::MachineKind::arm && !now.connection.status.link_lost) {
         return {}; // it is asked and stopped by lines while it moves, and says itself what has to wait
     }
-    const bool busy = now.job.running && !actions::waits_for_tool(now.controller.status);
-    return busy ? Permission::refused("A job is running.") : at_rest(now.controller);
+    const bool busy = now.job.running && !actions::waits_for_tool(now.connection.status);
+    return busy ? Permission::refused("A job is running.") : at_rest(now.connection);
 }
 
 } // namespace
 
-std::string_view line_name(const Workbench& now) {
+std::string_view command_line_label(const FrameState& now) {
     return now.arm_connected() ? "Line" : "MDI";
 }
 
-void ConsolePanel::follow(const Workbench& now) {
+void ConsolePanel::follow(const FrameState& now) {
     const auto console = now.console;
     if (console != source_.lock()) {
         source_ = console;
@@ -83,7 +83,7 @@ void ConsolePanel::follow(const Workbench& now) {
     if (!console) {
         return;
     }
-    console->keep_reports(now.session.hand.show_reports);
+    console->keep_reports(now.view_state.manual.show_reports);
     next_ = console->read(next_, lines_);
     if (!start_known_ && !lines_.empty()) {
         start_ = lines_.front().time;
@@ -95,13 +95,13 @@ void ConsolePanel::follow(const Workbench& now) {
     shown_.clear();
     for (std::size_t n = 0; n < lines_.size(); ++n) {
         const bool found = wanted_.empty() || TextPattern(wanted_).next(lines_[n].text, 0);
-        if (found && (now.session.hand.show_reports || !is_report(lines_[n]))) {
+        if (found && (now.view_state.manual.show_reports || !is_report(lines_[n]))) {
             shown_.push_back(n);
         }
     }
 }
 
-void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ConsolePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     follow(now);
     draw_command(ui, now, ask);
     if (!now.console) {
@@ -123,9 +123,9 @@ void ConsolePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     (void)widgets::listing(ui, "console", view);
 }
 
-void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ConsolePanel::draw_command(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const float whole = ui.rest().w;
-    const drivers::CommandAnswer& answer = now.controller.status.answer;
+    const drivers::CommandAnswer& answer = now.connection.status.answer;
     const bool refused = answer.state == drivers::CommandAnswer::State::refused;
     {
         const auto width = ui.width(0.5F * whole);
@@ -133,14 +133,14 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
         const auto permitted = ui.permitted(can_type(now));
         if (const auto line =
                 ui.command_line("command",
-                                line_name(now),
-                                now.session.hand.commands,
+                                command_line_label(now),
+                                now.view_state.manual.commands,
                                 refused ? std::string_view() : command_tip, // which would lie over the reason
                                 can_send(now),
-                                now.controller.can.words)) {
+                                now.connection.can.words)) {
             ask.tell([line = *line](drivers::Driver& driver) { (void)driver.command(line); });
-            ask.show([line = *line](actions::Session& session) {
-                auto& commands = session.hand.commands;
+            ask.show([line = *line](actions::ViewState& view_state) {
+                auto& commands = view_state.manual.commands;
                 std::erase(commands, line);
                 commands.push_back(line);
                 if (commands.size() > most_commands) {
@@ -162,9 +162,9 @@ void ConsolePanel::draw_command(Ui& ui, const Workbench& now, ActionQueue& ask) 
     ui.beside();
     if (const auto on = ui.checkbox("reports",
                                     "Status reports",
-                                    now.session.hand.show_reports,
+                                    now.view_state.manual.show_reports,
                                     "Show the status reports (ten per second)")) {
-        ask.show([on = *on](actions::Session& session) { session.hand.show_reports = on; });
+        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.show_reports = on; });
     }
     if (refused) {
         (void)widgets::banner(

@@ -12,11 +12,11 @@ namespace millwright::panels {
 
 class ConsolePanel final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void follow(const Workbench& now);
-    void draw_command(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void follow(const FrameState& now);
+    void draw_command(Ui& ui, const FrameState& now, ActionQueue& ask);
 
     std::weak_ptr<drivers::Console> source_; ///< that `lines_` came from
     std::vector<drivers::ConsoleLine> lines_;

@@ -2,7 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "ui/widgets/table.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace {
 using drivers::DriverState;
 using widgets::Permission;
 
-Permission can_change(const Workbench& now) {
-    const DriverState state = now.controller.status.state;
+Permission can_change(const FrameState& now) {
+    const DriverState state = now.connection.status.state;
     return !now.job.running && (state == DriverState::idle || state == DriverState::stopped)
                ? Permission{}
                : Permission::refused("The machine is not idle.");
@@ -25,11 +25,11 @@ Permission can_change(const Workbench& now) {
 
 } // namespace
 
-void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const auto& axes = now.controller.axes;
-    const auto& offsets = now.controller.offsets;
-    if (!now.controller.connected() || offsets.empty()) {
-        ui.note(now.controller.connected() ? "This machine reports no stored offsets."
+void OffsetTable::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const auto& axes = now.connection.axes;
+    const auto& offsets = now.connection.offsets;
+    if (!now.connection.connected() || offsets.empty()) {
+        ui.note(now.connection.connected() ? "This machine reports no stored offsets."
                                            : "No machine is connected.");
         return;
     }
@@ -60,7 +60,7 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     };
     view.row_id = [&](std::ptrdiff_t row) { return offsets[static_cast<std::size_t>(row)].name; };
     view.height = ui.rest().h;
-    const int system = now.controller.status.work_system;
+    const int system = now.connection.status.work_system;
     const std::string in_force = system > 0 ? drivers::work_system_name(system) : std::string();
     const auto chosen = std::ranges::find(offsets, in_force, &drivers::StoredOffset::name);
     view.chosen = chosen == offsets.end() ? -1 : chosen - offsets.begin();
@@ -72,10 +72,10 @@ void OffsetTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void SettingTable::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const auto& settings = now.controller.settings;
-    if (!now.controller.connected() || settings.empty()) {
-        ui.note(now.controller.connected() ? "This machine reports no settings."
+void SettingTable::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const auto& settings = now.connection.settings;
+    if (!now.connection.connected() || settings.empty()) {
+        ui.note(now.connection.connected() ? "This machine reports no settings."
                                            : "No machine is connected.");
         return;
     }

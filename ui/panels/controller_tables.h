@@ -9,12 +9,12 @@ namespace millwright::panels {
 
 class OffsetTable final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 };
 
 class SettingTable final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
     std::string chosen_; ///< name of the setting that can be changed

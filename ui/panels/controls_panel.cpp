@@ -1,9 +1,9 @@
 #include "ui/panels/controls_panel.h"
 
 #include "core/base/text.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/internal/manual_fields.h"
 #include "ui/widgets/icons.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace millwright::panels {
 namespace {
 
 namespace icons = widgets::icons;
-using actions::ControllerView;
+using actions::ConnectionView;
 using widgets::Permission;
 using widgets::Rank;
 
@@ -28,9 +28,9 @@ Permission can_override(const drivers::Capabilities& can, bool feed) {
 }
 
 /// The steps that controllers have: Grbl knows no others.
-void rapid_row(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const drivers::Overrides& all = now.controller.status.overrides;
-    const Permission can = can_override(now.controller.can, false);
+void rapid_row(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const drivers::Overrides& all = now.connection.status.overrides;
+    const Permission can = can_override(now.connection.can, false);
     ui.value("rapid", "Rapid", fmt::format("{}", all.rapid), "%");
     const auto row = ui.row(3);
     for (const int percent : {25, 50, 100}) {
@@ -47,7 +47,7 @@ void rapid_row(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 /// -10 %, the value, +10 %, back to 100 %.
 void override_row(Ui& ui,
-                  const Workbench& now,
+                  const FrameState& now,
                   ActionQueue& ask,
                   const std::string& id,
                   std::string_view label,
@@ -55,8 +55,8 @@ void override_row(Ui& ui,
     constexpr int step = 10;
     constexpr int least = 10;
     constexpr int most = 200;
-    const drivers::Overrides& all = now.controller.status.overrides;
-    const Permission can = can_override(now.controller.can, which == &drivers::Overrides::feed);
+    const drivers::Overrides& all = now.connection.status.overrides;
+    const Permission can = can_override(now.connection.can, which == &drivers::Overrides::feed);
     const auto set = [&](int percent) {
         drivers::Overrides wanted = all;
         wanted.*which = std::clamp(percent, least, most);
@@ -75,31 +75,31 @@ void override_row(Ui& ui,
     }
 }
 
-void probe_fields(Ui& ui, ActionQueue& ask, const actions::HandSettings& hand) {
-    hand_number(ui,
-                ask,
-                {"probe_way",
-                 "Probe distance",
-                 "mm",
-                 "Maximum distance to search for the part",
-                 0.1,
-                 500.0,
-                 no_default,
-                 1},
-                hand.probe_way_mm,
-                &actions::HandSettings::probe_way_mm);
-    hand_number(ui,
-                ask,
-                {"probe_speed",
-                 "Probe feed",
-                 "mm/min",
-                 "Feed rate on contact: keep it low",
-                 1.0,
-                 2000.0,
-                 no_default,
-                 0},
-                hand.probe_mm_per_min,
-                &actions::HandSettings::probe_mm_per_min);
+void probe_fields(Ui& ui, ActionQueue& ask, const actions::ManualSettings& manual) {
+    manual_number(ui,
+                  ask,
+                  {"probe_way",
+                   "Probe distance",
+                   "mm",
+                   "Maximum distance to search for the part",
+                   0.1,
+                   500.0,
+                   no_default,
+                   1},
+                  manual.probe_way_mm,
+                  &actions::ManualSettings::probe_way_mm);
+    manual_number(ui,
+                  ask,
+                  {"probe_speed",
+                   "Probe feed",
+                   "mm/min",
+                   "Feed rate on contact: keep it low",
+                   1.0,
+                   2000.0,
+                   no_default,
+                   0},
+                  manual.probe_mm_per_min,
+                  &actions::ManualSettings::probe_mm_per_min);
 }
 
 /// `z`: of the axis Z among those of the position.
@@ -115,21 +115,21 @@ void probed_value(Ui& ui, const drivers::Probing& last, std::optional<std::size_
 
 } // namespace
 
-void ControlsPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ControlsPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_finding(ui, now, ask);
     draw_overrides(ui, now, ask);
     draw_spindle(ui, now, ask);
 }
 
-void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ControlsPanel::draw_finding(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("finding", "Homing and probing");
     if (!section) {
         return;
     }
-    const ControllerView& machine = now.controller;
+    const ConnectionView& machine = now.connection;
     action_button(ui, now, ask, catalogue_, "machine.home");
-    const actions::HandSettings& hand = now.session.hand;
-    probe_fields(ui, ask, hand);
+    const actions::ManualSettings& manual = now.view_state.manual;
+    probe_fields(ui, ask, manual);
     const auto z = axis_named(machine, 'Z');
     Permission can =
         machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
@@ -146,8 +146,8 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
         command(ask,
                 drivers::probe_line(machine.axes[*z],
                                     static_cast<int>(*z),
-                                    -hand.probe_way_mm,
-                                    hand.probe_mm_per_min / seconds_per_minute,
+                                    -manual.probe_way_mm,
+                                    manual.probe_mm_per_min / seconds_per_minute,
                                     machine.status));
     }
     if (machine.status.probe) {
@@ -155,7 +155,7 @@ void ControlsPanel::draw_finding(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
-void ControlsPanel::draw_overrides(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ControlsPanel::draw_overrides(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("overrides", "Overrides");
     if (!section) {
         return;
@@ -165,26 +165,26 @@ void ControlsPanel::draw_overrides(Ui& ui, const Workbench& now, ActionQueue& as
     override_row(ui, now, ask, "spindle", "Spindle", &drivers::Overrides::spindle);
 }
 
-void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ControlsPanel::draw_spindle(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("spindle", "Spindle and coolant");
     if (!section) {
         return;
     }
-    const drivers::DriverStatus& status = now.controller.status;
-    const Permission can = can_command(now.controller);
+    const drivers::DriverStatus& status = now.connection.status;
+    const Permission can = can_command(now.connection);
     const bool turning = status.spindle != gcode::SpindleTurning::stopped;
     const bool clockwise = status.spindle == gcode::SpindleTurning::clockwise;
     ui.value("state",
              "Spindle",
-             !now.controller.can.tells_spindle ? std::string("not reported")
+             !now.connection.can.tells_spindle ? std::string("not reported")
              : turning ? fmt::format("{}, {:.0f} rpm", clockwise ? "M3" : "M4", status.spindle_rpm)
                        : std::string("stopped"));
-    const double rpm = now.session.hand.spindle_rpm;
-    hand_number(ui,
-                ask,
-                {"rpm", "Speed", "rpm", "Spindle speed for the buttons below", 0.0, 60000.0, no_default, 0},
-                rpm,
-                &actions::HandSettings::spindle_rpm);
+    const double rpm = now.view_state.manual.spindle_rpm;
+    manual_number(ui,
+                  ask,
+                  {"rpm", "Speed", "rpm", "Spindle speed for the buttons below", 0.0, 60000.0, no_default, 0},
+                  rpm,
+                  &actions::ManualSettings::spindle_rpm);
     {
         const auto row = ui.row(3);
         if (ui.button("clockwise", "M3", can, {{}, Rank::normal, -1.0F, "Start the spindle clockwise"})) {
@@ -201,7 +201,7 @@ void ControlsPanel::draw_spindle(Ui& ui, const Workbench& now, ActionQueue& ask)
         }
     }
     const Permission can_mist =
-        now.controller.can.mist ? can : Permission::refused("This controller does not support M7.");
+        now.connection.can.mist ? can : Permission::refused("This controller does not support M7.");
     if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can_mist)) {
         command(ask, drivers::set_coolant(*on, status.flood));
     }

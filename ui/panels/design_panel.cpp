@@ -3,7 +3,7 @@
 #include "core/base/text.h"
 #include "core/geometry/presets.h"
 #include "core/project/reshaped_surface.h"
-#include "ui/actions/import_bench.h"
+#include "ui/actions/pending_import.h"
 #include "ui/panels/import_panel.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/viewport/symmetric_points.h"
@@ -34,15 +34,15 @@ const ControlNet& net_of(const project::Project& project, const ControlPointId& 
 }
 
 /// The points and their images, with what each takes of the way of the first one.
-std::vector<SharedPoint> shared_by(const Workbench& now, const std::vector<ControlPointId>& ids) {
+std::vector<SharedPoint> shared_by(const FrameState& now, const std::vector<ControlPointId>& ids) {
     const auto net = [&](geometry::PatchId patch) -> const ControlNet& {
         return now.project.surface.patches[static_cast<std::size_t>(patch)];
     };
-    return with_images(net, now.session.symmetry, ids, ids.front());
+    return with_images(net, now.view_state.symmetry, ids, ids.front());
 }
 
 /// Moves the first point of `ids` by `by`, the others and the images along.
-void move_shared_points(const Workbench& now,
+void move_shared_points(const FrameState& now,
                         ActionQueue& ask,
                         const std::vector<ControlPointId>& ids,
                         const Vec3& by) {
@@ -57,7 +57,7 @@ void move_shared_points(const Workbench& now,
              });
 }
 
-void set_weights(const Workbench& now,
+void set_weights(const FrameState& now,
                  ActionQueue& ask,
                  const std::vector<ControlPointId>& ids,
                  double weight) {
@@ -70,15 +70,15 @@ void set_weights(const Workbench& now,
 }
 
 /// What is done to one side of the net is done to the other one, too.
-void symmetry_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const geometry::NetSymmetry& symmetry = now.session.symmetry;
+void symmetry_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const geometry::NetSymmetry& symmetry = now.view_state.symmetry;
     constexpr const char* tip = "Edits of a control point are mirrored to its counterpart in the net; points "
                                 "in the middle stay in the middle";
     if (const auto on = ui.toggle("symmetric_x", "Symmetric in X", symmetry.x, tip)) {
-        ask.show([x = *on](actions::Session& session) { session.symmetry.x = x; });
+        ask.show([x = *on](actions::ViewState& view_state) { view_state.symmetry.x = x; });
     }
     if (const auto on = ui.toggle("symmetric_y", "Symmetric in Y", symmetry.y, tip)) {
-        ask.show([y = *on](actions::Session& session) { session.symmetry.y = y; });
+        ask.show([y = *on](actions::ViewState& view_state) { view_state.symmetry.y = y; });
     }
 }
 
@@ -147,7 +147,7 @@ int columns_shown(const Ui& ui, const ControlNet& net, int coordinate) {
 
 } // namespace
 
-void DesignPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void DesignPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.import.is_open()) {
         import_panel(ui, now, ask, catalogue_);
         return;
@@ -162,7 +162,7 @@ void DesignPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_net(ui, now, ask);
 }
 
-void DesignPanel::draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void DesignPanel::draw_surface(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("surface", "Surface");
     if (!section) {
         return;
@@ -231,13 +231,13 @@ void DesignPanel::draw_turn(Ui& ui, ActionQueue& ask) {
     }
 }
 
-void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void DesignPanel::draw_point(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("point", "Control point");
     if (!section) {
         return;
     }
     symmetry_fields(ui, now, ask);
-    const std::vector<ControlPointId>& selected = now.session.selected;
+    const std::vector<ControlPointId>& selected = now.view_state.selected;
     if (selected.empty()) {
         ui.note(
             "Click a control point in the view; Ctrl adds to the selection. Drag to move it, with X, Y or Z "
@@ -276,9 +276,9 @@ void DesignPanel::draw_point(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// Which columns are shown, where not all are: by hand, and that of a point that is selected.
-void DesignPanel::draw_columns(Ui& ui, const Workbench& now, const ControlNet& net, int shown) {
+void DesignPanel::draw_columns(Ui& ui, const FrameState& now, const ControlNet& net, int shown) {
     const auto selected =
-        now.session.selected.empty() ? std::nullopt : std::optional(now.session.selected.front());
+        now.view_state.selected.empty() ? std::nullopt : std::optional(now.view_state.selected.front());
     if (std::exchange(followed_, selected) != selected && selected) {
         first_column_ = std::clamp(first_column_, selected->j - shown + 1, selected->j);
     }
@@ -305,7 +305,7 @@ void DesignPanel::draw_columns(Ui& ui, const Workbench& now, const ControlNet& n
         widgets::Tone::muted);
 }
 
-void DesignPanel::draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, int row, int columns) {
+void DesignPanel::draw_net_row(Ui& ui, const FrameState& now, ActionQueue& ask, int row, int columns) {
     const int patch = edited_patch(now);
     const ControlNet& net = now.project.surface.patches[static_cast<std::size_t>(patch)];
     const bool weights = shown_coordinate_ == weight_column;
@@ -333,7 +333,7 @@ void DesignPanel::draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, i
     }
 }
 
-void DesignPanel::draw_net(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void DesignPanel::draw_net(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("net", "Control net");
     if (!section) {
         return;

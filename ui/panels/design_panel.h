@@ -12,15 +12,15 @@ namespace millwright::panels {
 class DesignPanel final : public Panel {
 public:
     explicit DesignPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_surface(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_surface(Ui& ui, const FrameState& now, ActionQueue& ask);
     void draw_turn(Ui& ui, ActionQueue& ask);
-    void draw_point(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_net(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_net_row(Ui& ui, const Workbench& now, ActionQueue& ask, int row, int columns);
-    void draw_columns(Ui& ui, const Workbench& now, const geometry::ControlNet& net, int shown);
+    void draw_point(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_net(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_net_row(Ui& ui, const FrameState& now, ActionQueue& ask, int row, int columns);
+    void draw_columns(Ui& ui, const FrameState& now, const geometry::ControlNet& net, int shown);
 
     const actions::Catalogue& catalogue_;
     PatchFields patch_;

@@ -7,14 +7,14 @@
 
 namespace millwright::panels {
 
-Desktop::Desktop(render::WindowContext& context, actions::Workshop& workshop)
-    : context_(context), screen_(&context), workshop_(workshop),
+Desktop::Desktop(render::WindowContext& context, actions::AppController& app)
+    : context_(context), screen_(&context), app_(app),
       session_(std::make_unique<render::ImGuiSession>(context)) {
     start();
 }
 
-Desktop::Desktop(render::OffscreenContext& context, actions::Workshop& workshop)
-    : context_(context), workshop_(workshop), session_(std::make_unique<render::ImGuiSession>(context)) {
+Desktop::Desktop(render::OffscreenContext& context, actions::AppController& app)
+    : context_(context), app_(app), session_(std::make_unique<render::ImGuiSession>(context)) {
     start();
 }
 
@@ -26,16 +26,16 @@ void Desktop::start() {
     const auto scale = static_cast<float>(context_.content_scale());
     const widgets::LoadedFonts fonts = widgets::load_fonts(*ImGui::GetIO().Fonts, scale);
     for (const Diagnostic& missing : fonts.diagnostics) {
-        workshop_.session().log.push_back(to_text(missing));
+        app_.view_state().log.push_back(to_text(missing));
     }
-    const widgets::Theme theme = workshop_.session().theme;
+    const widgets::Theme theme = app_.view_state().theme;
     ui_ = std::make_unique<widgets::Ui>(widgets::Look{theme, scale, fonts.fonts});
     widgets::apply(theme, scale, ImGui::GetStyle());
-    window_ = std::make_unique<Window>(workshop_);
+    window_ = std::make_unique<Window>(app_);
 }
 
 void Desktop::follow_theme() {
-    const widgets::Theme theme = workshop_.session().theme;
+    const widgets::Theme theme = app_.view_state().theme;
     if (theme != ui_->look().theme) {
         widgets::Look look = ui_->look();
         look.theme = theme;
@@ -45,7 +45,7 @@ void Desktop::follow_theme() {
 }
 
 void Desktop::draw(bool focused, const std::optional<render::Gamepad>& gamepad) {
-    workshop_.see_gamepad(gamepad);
+    app_.see_gamepad(gamepad);
     const render::PixelSize size = context_.framebuffer_size();
     ui_->begin_frame();
     window_->draw(*ui_, static_cast<float>(size.width), static_cast<float>(size.height), focused);

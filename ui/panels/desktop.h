@@ -1,4 +1,4 @@
-// The workbench on a context: ImGui, fonts, look and window together, one frame at a time. The app runs it in
+// The window on a context: ImGui, fonts, look and window together, one frame at a time. The app runs it in
 // a window, tests and pictures in memory.
 #pragma once
 
@@ -13,9 +13,9 @@ namespace millwright::panels {
 
 class Desktop {
 public:
-    /// `workshop` and the context must outlive it.
-    Desktop(render::WindowContext& context, actions::Workshop& workshop);
-    Desktop(render::OffscreenContext& context, actions::Workshop& workshop);
+    /// `app` and the context must outlive it.
+    Desktop(render::WindowContext& context, actions::AppController& app);
+    Desktop(render::OffscreenContext& context, actions::AppController& app);
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
     ~Desktop();
@@ -40,7 +40,7 @@ private:
 
     render::Context& context_;
     render::WindowContext* screen_ = nullptr; ///< null in memory
-    actions::Workshop& workshop_;
+    actions::AppController& app_;
     std::unique_ptr<render::ImGuiSession> session_;
     std::unique_ptr<widgets::Ui> ui_;
     std::unique_ptr<Window> window_;

@@ -1,6 +1,6 @@
 #include "ui/panels/dialogs.h"
 
-#include "core/jobs/way_on.h"
+#include "core/jobs/resume_point.h"
 #include "ui/actions/at_rest.h"
 #include "ui/panels/color_dialog.h"
 #include "ui/panels/internal/fields.h"
@@ -36,40 +36,40 @@ std::string shortened_path(const std::string& path) {
 
 } // namespace
 
-void Dialogs::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void Dialogs::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto scope = ui.scope("dialogs");
-    const bool file = now.session.question != actions::FileQuestion::none;
+    const bool file = now.view_state.file_prompt != actions::FilePrompt::none;
     if (!file) {
         files_.close();
     }
-    if (!now.session.start) {
+    if (!now.view_state.start) {
         start_.close();
     }
-    if (now.session.quit_wanted) { // over everything: something moves
+    if (now.view_state.quit_wanted) { // over everything: something moves
         draw_running_job(ui, now, ask);
-    } else if (now.session.replacing) {
+    } else if (now.view_state.replacing) {
         draw_replacing(ui, now, ask);
-    } else if (now.session.gouges_asked) {
+    } else if (now.view_state.gouges_asked) {
         draw_gouges(ui, now, ask);
     } else if (file) {
         files_.draw(ui, now, ask);
     } else if (!now.leaving_to.empty()) {
         draw_unsaved(ui, now, ask);
-    } else if (now.session.start) {
+    } else if (now.view_state.start) {
         start_.draw(ui, now, ask);
     } else if (!now.left_behind.empty()) {
         draw_left_behind(ui, now, ask);
     } else if (!now.broken_jobs->empty()) {
         draw_broken_job(ui, now, ask);
-    } else if (now.session.help != actions::HelpPage::none) {
+    } else if (now.view_state.help != actions::HelpPage::none) {
         help_.draw(ui, now, ask);
-    } else if (now.session.colors_shown) {
+    } else if (now.view_state.colors_shown) {
         color_dialog(ui, now, ask);
     }
 }
 
-void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const actions::Replacing& asked = *now.session.replacing;
+void Dialogs::draw_replacing(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const actions::Replacing& asked = *now.view_state.replacing;
     const bool project = asked.what == actions::ReplacedFile::project;
     const auto dialog = ui.dialog(
         "replace", project ? "File changed on disk" : "Replace the file?", ui.px(project ? wide : width));
@@ -94,7 +94,7 @@ void Dialogs::draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
 }
 
-void Dialogs::draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void Dialogs::draw_gouges(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto dialog = ui.dialog("gouges", "Write a program that gouges the part?", ui.px(wide));
     if (!dialog) {
         return;
@@ -112,7 +112,7 @@ void Dialogs::draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const 
     }
 }
 
-void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void Dialogs::draw_unsaved(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto dialog = ui.dialog("unsaved", "Save the changes?", ui.px(width));
     if (!dialog) {
         return;
@@ -131,9 +131,9 @@ void Dialogs::draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const
     }
 }
 
-void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void Dialogs::draw_running_job(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const bool job = now.job.running;
-    const bool moves = actions::arm_moves(now.controller);
+    const bool moves = actions::arm_moves(now.connection);
     const auto dialog = ui.dialog("running_job",
                                   job     ? "Stop the job?"
                                   : moves ? "Stop the arm?"
@@ -168,7 +168,7 @@ void Dialogs::draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) c
     }
 }
 
-void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void Dialogs::draw_left_behind(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto dialog = ui.dialog("recovery", "Unsaved work found", ui.px(width));
     if (!dialog) {
         return;
@@ -197,7 +197,7 @@ void Dialogs::draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) c
     action_button(ui, now, ask, catalogue_, "recovery.recover", Rank::primary);
 }
 
-void Dialogs::draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void Dialogs::draw_broken_job(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto dialog = ui.dialog("broken_job", "A job was interrupted", ui.px(wide));
     if (!dialog) {
         return;

@@ -13,15 +13,15 @@ class Dialogs final : public Panel {
 public:
     explicit Dialogs(const actions::Catalogue& catalogue)
         : catalogue_(catalogue), help_(catalogue), start_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_running_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_replacing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_gouges(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_unsaved(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_left_behind(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_broken_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_running_job(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_replacing(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_gouges(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_unsaved(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_left_behind(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_broken_job(Ui& ui, const FrameState& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
     FilePanel files_;

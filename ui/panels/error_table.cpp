@@ -2,7 +2,7 @@
 
 #include "core/base/text.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/table_height.h"
@@ -74,7 +74,7 @@ row_of(std::string id, std::string name, const Evaluation* evaluation, const std
 
 } // namespace
 
-std::vector<ErrorRow> error_rows(const Workbench& now) {
+std::vector<ErrorRow> error_rows(const FrameState& now) {
     std::vector<ErrorRow> rows;
     for (const GridMethod method : project::every_grid_method) {
         const auto& grid = project::row_of(project::grid_methods(), method);
@@ -89,14 +89,14 @@ std::vector<ErrorRow> error_rows(const Workbench& now) {
                               now.program_path().get(),
                               now.plan ? now.plan->plan.path_time : std::nullopt));
     }
-    if (const auto& kept = now.session.kept) {
+    if (const auto& kept = now.view_state.kept) {
         rows.push_back(row_of(
             "kept", "Pinned: " + kept->name + ", " + kept->place, kept->evaluation.get(), std::nullopt));
     }
     return rows;
 }
 
-void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue& ask) {
+void error_table(Ui& ui, std::string_view id, const FrameState& now, ActionQueue& ask) {
     const std::vector<ErrorRow> rows = error_rows(now);
     const std::ptrdiff_t grids = std::ssize(project::every_grid_method);
     widgets::TableView view;
@@ -111,9 +111,9 @@ void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue&
     if (const auto row = widgets::table(ui, id, view)) {
         const std::string chosen = view.row_id(*row);
         if (chosen == "path") {
-            ask.show([](actions::Session& session) { session.own_path_shown = true; });
+            ask.show([](actions::ViewState& view_state) { view_state.own_path_shown = true; });
         } else if (chosen == "kept") {
-            ask.show([](actions::Session& session) { session.beside = {{}, true}; });
+            ask.show([](actions::ViewState& view_state) { view_state.compare_with = {{}, true}; });
         } else { // refused where it was not made
             ask.run("view.show_" + chosen);
         }

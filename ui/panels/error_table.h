@@ -15,9 +15,9 @@ struct ErrorRow {
 };
 
 /// One row a grid, then the path where the project has one of its own.
-[[nodiscard]] std::vector<ErrorRow> error_rows(const Workbench& now);
+[[nodiscard]] std::vector<ErrorRow> error_rows(const FrameState& now);
 
 /// All rows; a click shows that grid. Where the pane is low the table scrolls.
-void error_table(Ui& ui, std::string_view id, const Workbench& now, ActionQueue& ask);
+void error_table(Ui& ui, std::string_view id, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

@@ -5,7 +5,7 @@
 namespace millwright::panels {
 
 void action_button(Ui& ui,
-                   const Workbench& now,
+                   const FrameState& now,
                    ActionQueue& ask,
                    const actions::Catalogue& catalogue,
                    std::string_view action_id,

@@ -3,9 +3,9 @@
 #include "core/base/error.h"
 #include "core/project/imported_surface.h"
 #include "core/project/plot_input.h"
+#include "ui/actions/app_controller.h"
 #include "ui/actions/processor_texts.h"
-#include "ui/actions/workshop.h"
-#include "ui/panels/asked_file.h"
+#include "ui/panels/file_prompt.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/table.h"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 namespace icons = widgets::icons;
-using actions::FileQuestion;
+using actions::FilePrompt;
 using widgets::Permission;
 using widgets::Rank;
 
@@ -41,17 +41,17 @@ bool same_file(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, missing);
 }
 
-/// The project's where the question has none of its own.
-std::string first_name(const Workbench& now, const AskedFile& asked) {
+/// The project's where the prompt has none of its own.
+std::string first_name(const FrameState& now, const FilePromptRow& asked) {
     if (!asked.first.empty()) {
         return std::string(asked.first);
     }
     constexpr std::string_view project = ".millwright"; // by which a desktop knows the file
     if (now.document.file.empty()) {
-        const std::string_view kind = asked.question == FileQuestion::save_as ? project : "";
+        const std::string_view kind = asked.prompt == FilePrompt::save_as ? project : "";
         return now.project.name + std::string(kind) + std::string(asked.ending);
     }
-    if (asked.question != FileQuestion::write_program) {
+    if (asked.prompt != FilePrompt::write_program) {
         return now.document.file.filename().string();
     }
     fs::path name = now.document.file.stem();
@@ -61,8 +61,8 @@ std::string first_name(const Workbench& now, const AskedFile& asked) {
 
 } // namespace
 
-void FilePanel::begin(const Workbench& now) {
-    asked_ = now.session.question;
+void FilePanel::begin(const FrameState& now) {
+    asked_ = now.view_state.file_prompt;
     source_ = Source::folder;
     filter_ = 0;
     named_.clear();
@@ -80,7 +80,7 @@ void FilePanel::enter(const fs::path& folder) {
     to_top_ = true;
 }
 
-void FilePanel::show_recent(const Workbench& now) {
+void FilePanel::show_recent(const FrameState& now) {
     entries_.clear();
     std::ranges::transform(now.recent, std::back_inserter(entries_), entry_of);
     fault_.clear();
@@ -88,8 +88,8 @@ void FilePanel::show_recent(const Workbench& now) {
     to_top_ = true;
 }
 
-void FilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (asked_ != now.session.question) {
+void FilePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    if (asked_ != now.view_state.file_prompt) {
         begin(now);
     }
     const bool opening = about(asked_).opens;
@@ -122,10 +122,10 @@ void FilePanel::go_to(const fs::path& typed, ActionQueue& ask) {
     }
 }
 
-void FilePanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void FilePanel::draw_source(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const std::array<widgets::Option, 2> sources{
         {{"folder", "Folder", icons::folder}, {"recent", "Recent", icons::timer}}};
-    if (asked_ == FileQuestion::open) {
+    if (asked_ == FilePrompt::open) {
         if (const auto source = ui.tabs("source", static_cast<int>(source_), sources)) {
             source_ = static_cast<Source>(*source);
             source_ == Source::folder ? enter(folder_) : show_recent(now);
@@ -149,7 +149,7 @@ void FilePanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 /// A folder is chosen and entered at once: of two clicks on a row the second one would enter what has taken
 /// its place.
-void FilePanel::draw_places(Ui& ui, const Workbench& now) {
+void FilePanel::draw_places(Ui& ui, const FrameState& now) {
     const std::vector<FilePlace> places = places_of(now);
     std::vector<std::string> ids;
     for (std::size_t n = 0; n < places.size(); ++n) {
@@ -193,7 +193,7 @@ std::string FilePanel::cell(const FolderEntry& entry, int column) const {
     }
 }
 
-void FilePanel::draw_entries(Ui& ui, const Workbench& /*now*/, ActionQueue& ask) {
+void FilePanel::draw_entries(Ui& ui, const FrameState& /*now*/, ActionQueue& ask) {
     constexpr std::array<widgets::Column, 4> columns{{{"Name", "", 2.6F, false},
                                                       {"Type", "", 1.3F, false},
                                                       {"Size", "", 1.0F, true},
@@ -239,9 +239,9 @@ void FilePanel::take(const FolderEntry& clicked, ActionQueue& ask) {
     }
 }
 
-void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void FilePanel::draw_open(Ui& ui, const FrameState& now, ActionQueue& ask) {
     ui.gap();
-    if (asked_ != FileQuestion::open) {
+    if (asked_ != FilePrompt::open) {
         ui.note(chosen_.empty() ? " " : chosen_.filename().string());
     } else if (entry_of(chosen_).is_folder) {
         ProjectPreview::draw_words(ui, "A folder: click it again, or press Enter, to open it.");
@@ -251,7 +251,7 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     } else if (is_gcode(chosen_)) {
         ProjectPreview::draw_words(
             ui,
-            now.session.workspace == actions::Workspace::plot
+            now.view_state.workspace == actions::Workspace::plot
                 ? "A G-code program: it opens here in the Plot & Picture workspace and is used unchanged."
                 : "A G-code program: it opens in the Program workspace; the project stays open.");
     } else if (actions::is_processor_file(chosen_)) {
@@ -278,17 +278,16 @@ void FilePanel::draw_open(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-/// The next question of this use begins there.
+/// The next prompt of this use begins there.
 void FilePanel::remember_folder(ActionQueue& ask, const fs::path& file) const {
-    ask.show([use = std::string(use_of(asked_)), folder = file.parent_path()](actions::Session& session) {
-        session.folders[use] = folder;
-    });
+    ask.show([use = std::string(use_of(asked_)), folder = file.parent_path()](
+                 actions::ViewState& view_state) { view_state.folders[use] = folder; });
 }
 
 void FilePanel::open(ActionQueue& ask, const fs::path& file) const {
     remember_folder(ask, file);
     if (const auto answer = about(asked_).answer) {
-        ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
+        ask.files([answer, file](actions::AppController& app) { answer(app, file); });
     } else {
         ask.open_file(file);
     }
@@ -300,13 +299,13 @@ fs::path FilePanel::file_to_save(std::string_view name) const {
 }
 
 /// Whether saving to `file` destroys something: not where the project that is open lies already.
-bool FilePanel::replaces(const fs::path& file, const Workbench& now) const {
+bool FilePanel::replaces(const fs::path& file, const FrameState& now) const {
     std::error_code unreadable;
-    const bool is_own = asked_ == FileQuestion::save_as && same_file(file, now.document.file);
+    const bool is_own = asked_ == FilePrompt::save_as && same_file(file, now.document.file);
     return fs::exists(file, unreadable) && !is_own;
 }
 
-void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void FilePanel::draw_save(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (std::exchange(answered_, false)) {
         ui.focus_field(ui.path("name"));
     }
@@ -332,7 +331,7 @@ void FilePanel::draw_save(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui.change_in(0.0);
         remember_folder(ask, file);
         if (const auto answer = about(asked_).answer) {
-            ask.files([answer, file](actions::Workshop& workshop) { answer(workshop, file); });
+            ask.files([answer, file](actions::AppController& app) { answer(app, file); });
         } else {
             ask.save_file(file);
         }
@@ -357,10 +356,10 @@ bool FilePanel::draw_save_button(Ui& ui, const Permission& allowed, const fs::pa
                       replaced.empty() ? "Enter" : ""});
 }
 
-void FilePanel::draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void FilePanel::draw_cancel(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const bool escaped = ui.escape_pressed() && !ui.is_typing();
     if (ui.button("cancel", "Cancel", {}, {{}, Rank::normal, -1.0F, "Esc"}) || escaped) {
-        ask.show([](actions::Session& session) { session.question = FileQuestion::none; });
+        ask.show([](actions::ViewState& view_state) { view_state.file_prompt = FilePrompt::none; });
         if (!now.leaving_to.empty()) { // the file was asked for to save what is unsaved
             ask.run("unsaved.cancel");
         }

@@ -15,34 +15,34 @@ namespace millwright::panels {
 
 class FilePanel {
 public:
-    /// While session.question asks for a file.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask);
-    /// The question is over: the next one begins anew.
-    void close() { asked_ = actions::FileQuestion::none; }
+    /// While view_state.file_prompt asks for a file.
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask);
+    /// The prompt is over: the next one begins anew.
+    void close() { asked_ = actions::FilePrompt::none; }
 
 private:
     enum class Source { folder, recent };
 
-    void begin(const Workbench& now);
+    void begin(const FrameState& now);
     void enter(const std::filesystem::path& folder);
-    void show_recent(const Workbench& now);
+    void show_recent(const FrameState& now);
     void go_to(const std::filesystem::path& typed, ActionQueue& ask);
-    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_places(Ui& ui, const Workbench& now);
+    void draw_source(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_places(Ui& ui, const FrameState& now);
     void draw_filter(Ui& ui);
-    void draw_entries(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_entries(Ui& ui, const FrameState& now, ActionQueue& ask);
     [[nodiscard]] std::string cell(const FolderEntry& entry, int column) const;
     void take(const FolderEntry& clicked, ActionQueue& ask);
     void remember_folder(ActionQueue& ask, const std::filesystem::path& file) const;
     void open(ActionQueue& ask, const std::filesystem::path& file) const;
-    void draw_open(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_save(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_open(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_save(Ui& ui, const FrameState& now, ActionQueue& ask);
     bool draw_save_button(Ui& ui, const widgets::Permission& allowed, const std::filesystem::path& replaced);
-    void draw_cancel(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_cancel(Ui& ui, const FrameState& now, ActionQueue& ask) const;
     [[nodiscard]] std::filesystem::path file_to_save(std::string_view name) const;
-    [[nodiscard]] bool replaces(const std::filesystem::path& file, const Workbench& now) const;
+    [[nodiscard]] bool replaces(const std::filesystem::path& file, const FrameState& now) const;
 
-    actions::FileQuestion asked_ = actions::FileQuestion::none;
+    actions::FilePrompt asked_ = actions::FilePrompt::none;
     Source source_ = Source::folder;
     std::filesystem::path folder_;
     std::vector<FolderEntry> entries_;

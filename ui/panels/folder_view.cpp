@@ -20,17 +20,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using actions::FileQuestion;
+using actions::FilePrompt;
 
-bool of_question(const AskedFile& asked, const fs::path& file) {
+bool of_prompt(const FilePromptRow& asked, const fs::path& file) {
     return is_listed(asked, file);
 }
 
-bool any_file(const AskedFile& /*asked*/, const fs::path& /*file*/) {
+bool any_file(const FilePromptRow& /*asked*/, const fs::path& /*file*/) {
     return true;
 }
 
-template <bool (*is_kind)(const fs::path&)> bool of_kind(const AskedFile& /*asked*/, const fs::path& file) {
+template <bool (*is_kind)(const fs::path&)>
+bool of_kind(const FilePromptRow& /*asked*/, const fs::path& file) {
     return is_kind(file);
 }
 
@@ -40,7 +41,7 @@ bool is_drawing(const fs::path& file) {
 
 constexpr FileFilter all_files{"all", "All files", any_file};
 constexpr std::array<FileFilter, 8> open_filters{
-    {{"known", "All supported files", of_question},
+    {{"known", "All supported files", of_prompt},
      {"projects", "Projects (.json)", of_kind<project::is_project_json>},
      {"gcode", "G-code programs", of_kind<is_gcode>},
      {"surfaces", "Surfaces (STEP, IGES, STL, OBJ, PLY)", of_kind<project::opens_as_surface>},
@@ -48,7 +49,7 @@ constexpr std::array<FileFilter, 8> open_filters{
      {"pictures", "Pictures", of_kind<project::is_picture_file>},
      {"processor", "Processor files", of_kind<actions::is_processor_file>},
      all_files}};
-constexpr std::array<FileFilter, 2> other_filters{{{"known", "Files of this type", of_question}, all_files}};
+constexpr std::array<FileFilter, 2> other_filters{{{"known", "Files of this type", of_prompt}, all_files}};
 
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
@@ -79,9 +80,9 @@ std::vector<fs::path> plugged_drives() {
 
 } // namespace
 
-std::span<const FileFilter> filters_of(FileQuestion question) {
-    return question == FileQuestion::open ? std::span<const FileFilter>(open_filters)
-                                          : std::span<const FileFilter>(other_filters);
+std::span<const FileFilter> filters_of(FilePrompt prompt) {
+    return prompt == FilePrompt::open ? std::span<const FileFilter>(open_filters)
+                                      : std::span<const FileFilter>(other_filters);
 }
 
 FolderEntry entry_of(const fs::path& path) {
@@ -95,7 +96,7 @@ FolderEntry entry_of(const fs::path& path) {
     return entry;
 }
 
-FolderListing listed(const fs::path& folder, const AskedFile& asked, const FileFilter& filter) {
+FolderListing listed(const fs::path& folder, const FilePromptRow& asked, const FileFilter& filter) {
     FolderListing result;
     std::error_code failure;
     for (const auto& found : fs::directory_iterator(folder, failure)) {
@@ -143,7 +144,7 @@ std::string size_text(std::uintmax_t bytes) {
     return {};
 }
 
-std::vector<FilePlace> places_of(const Workbench& now) {
+std::vector<FilePlace> places_of(const FrameState& now) {
     std::vector<FilePlace> places;
     const auto add = [&](std::string label, const fs::path& folder) {
         std::error_code none;
@@ -156,7 +157,7 @@ std::vector<FilePlace> places_of(const Workbench& now) {
     if (!now.document.file.empty()) {
         add("Project folder", fs::absolute(now.document.file).parent_path());
     }
-    for (const auto& [use, folder] : now.session.folders) {
+    for (const auto& [use, folder] : now.view_state.folders) {
         add(folder.string(), folder);
     }
     std::error_code gone;
@@ -169,15 +170,15 @@ std::vector<FilePlace> places_of(const Workbench& now) {
     return places;
 }
 
-fs::path starting_folder(const Workbench& now, const AskedFile& asked) {
-    const auto last = now.session.folders.find(std::string(use_of(asked.question)));
-    if (asked.question == FileQuestion::save_as && !now.document.file.empty()) {
+fs::path starting_folder(const FrameState& now, const FilePromptRow& asked) {
+    const auto last = now.view_state.folders.find(std::string(use_of(asked.prompt)));
+    if (asked.prompt == FilePrompt::save_as && !now.document.file.empty()) {
         return fs::absolute(now.document.file).parent_path();
     }
-    if (last != now.session.folders.end() && is_folder(last->second)) {
+    if (last != now.view_state.folders.end() && is_folder(last->second)) {
         return last->second;
     }
-    if (asked.question == FileQuestion::import_surface) { // which mostly comes from elsewhere
+    if (asked.prompt == FilePrompt::import_surface) { // which mostly comes from elsewhere
         const auto recent = std::ranges::find_if(now.recent, project::opens_as_surface);
         if (recent != now.recent.end() && is_folder(recent->parent_path())) {
             return recent->parent_path();

@@ -2,7 +2,7 @@
 // to begin from.
 #pragma once
 
-#include "ui/panels/asked_file.h"
+#include "ui/panels/file_prompt.h"
 #include "ui/panels/panel.h"
 
 #include <cstdint>
@@ -28,17 +28,17 @@ struct FolderListing {
     std::string fault;                ///< why the folder cannot be read
 };
 
-/// Which files are listed. The first of each question: all that it can open.
+/// Which files are listed. The first of each prompt: all that it can open.
 struct FileFilter {
     std::string_view id;
     std::string_view label;
-    bool (*lists)(const AskedFile& asked, const std::filesystem::path& file);
+    bool (*lists)(const FilePromptRow& asked, const std::filesystem::path& file);
 };
-[[nodiscard]] std::span<const FileFilter> filters_of(actions::FileQuestion question);
+[[nodiscard]] std::span<const FileFilter> filters_of(actions::FilePrompt prompt);
 
 /// Hidden files are left out.
 [[nodiscard]] FolderListing
-listed(const std::filesystem::path& folder, const AskedFile& asked, const FileFilter& filter);
+listed(const std::filesystem::path& folder, const FilePromptRow& asked, const FileFilter& filter);
 /// Of a file or folder by itself; of one that is gone without size and date.
 [[nodiscard]] FolderEntry entry_of(const std::filesystem::path& path);
 
@@ -55,10 +55,10 @@ struct FilePlace {
 };
 /// Those that are there, each folder once: home, the project's, the samples, where files were opened and
 /// saved, drives that are plugged in.
-[[nodiscard]] std::vector<FilePlace> places_of(const Workbench& now);
+[[nodiscard]] std::vector<FilePlace> places_of(const FrameState& now);
 
-/// Where a question begins: where a file was last opened or saved for the same use, else the project's
+/// Where a prompt begins: where a file was last opened or saved for the same use, else the project's
 /// folder.
-[[nodiscard]] std::filesystem::path starting_folder(const Workbench& now, const AskedFile& asked);
+[[nodiscard]] std::filesystem::path starting_folder(const FrameState& now, const FilePromptRow& asked);
 
 } // namespace millwright::panels

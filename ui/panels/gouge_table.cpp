@@ -39,7 +39,7 @@ std::string gouge_cell(const BlockBite& bite, int column) {
 
 } // namespace
 
-void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void gouge_table(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.project.tool.cutter == toolpath::CutterKind::point) {
         ui.note("The tool is a point and cannot gouge. Select a cutter in Toolpath > Tool.");
         return;
@@ -66,9 +66,9 @@ void gouge_table(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, "gouges", view); row && trajectory && !now.follows_job()) {
         const int block = cut->bites[static_cast<std::size_t>(*row)].block;
-        ask.show([time = trajectory->start_of(block)](actions::Session& session) {
-            session.playback.playing = false;
-            session.playback.time = time;
+        ask.show([time = trajectory->start_of(block)](actions::ViewState& view_state) {
+            view_state.playback.playing = false;
+            view_state.playback.time = time;
         });
     }
 }

@@ -6,10 +6,10 @@
 #include "core/grid/expression_weight.h"
 #include "core/plan/cut_remarks.h"
 #include "core/plan/grids.h"
-#include "core/plan/left_out.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
+#include "ui/panels/chain_stage_text.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/link_text.h"
 #include "ui/panels/no_gain_notes.h"
 #include "ui/panels/norm_plot.h"
 #include "ui/panels/numbers_text.h"
@@ -61,21 +61,21 @@ void draw_mix(Ui& ui, ActionQueue& ask, const project::EllipticInput& input) {
 }
 
 /// What of its name tells a link from those before it: "exponent 16".
-std::string short_name(const std::string& link) {
-    const std::size_t comma = link.rfind(", ");
-    return capitalised(comma == std::string::npos ? link : link.substr(comma + 2));
+std::string short_name(const std::string& stage) {
+    const std::size_t comma = stage.rfind(", ");
+    return capitalised(comma == std::string::npos ? stage : stage.substr(comma + 2));
 }
 
 /// What each link of the whole chain left the best grid with.
-void draw_links(Ui& ui, const std::vector<grid::ImproverLink>& links, bool turns) {
+void draw_chain_stages(Ui& ui, const std::vector<grid::ChainStage>& stages, bool turns) {
     ui.note("Best grid after each stage: max. error, mm / mean error, mm / max. axis deviation, deg");
-    for (std::size_t n = 0; n < links.size(); ++n) {
-        const grid::ImproverLink& link = links[n];
+    for (std::size_t n = 0; n < stages.size(); ++n) {
+        const grid::ChainStage& stage = stages[n];
         ui.value(fmt::format("link_{}", n),
-                 short_name(link.name),
-                 link_figures(link, turns),
+                 short_name(stage.name),
+                 stage_figures(stage, turns),
                  {},
-                 link_tip(link, turns));
+                 stage_tip(stage, turns));
     }
 }
 
@@ -94,12 +94,13 @@ void draw_memory(Ui& ui, ActionQueue& ask, GridMethod method, const project::Gri
 }
 
 /// As far as the machine is known.
-bool turns_the_tool(const Workbench& now) {
-    return !now.plan || !now.plan->plan.workpiece || !now.plan->plan.workpiece->machine.rotary_axes().empty();
+bool turns_the_tool(const FrameState& now) {
+    return !now.plan || !now.plan->plan.cutting_setup ||
+           !now.plan->plan.cutting_setup->machine.rotary_axes().empty();
 }
 
 /// The program uses it, or it is watched.
-bool is_in_hand(const Workbench& now, GridMethod method) {
+bool is_in_hand(const FrameState& now, GridMethod method) {
     return now.watched ? now.watched->method == method : now.project.grid.method == method;
 }
 
@@ -116,25 +117,27 @@ std::string status_text(const plan::WatchedAdaptation& watched) {
     if (!watched.state) {
         return name + ": not started";
     }
-    const bool stands = !watched.playing && watched.state->status == grid::ImproverStatus::running;
+    const bool stands = !watched.playing && watched.state->status == grid::OptimiserStatus::running;
     return name + (stands ? ", stopped early: " : ": ") + watched.state->note;
 }
 
 /// The one that is watched stands out; where none is, that of the program.
-widgets::Rank method_button_rank(const Workbench& now, GridMethod method) {
+widgets::Rank method_button_rank(const FrameState& now, GridMethod method) {
     const GridMethod foremost = now.watched ? now.watched->method : now.project.grid.method;
     return method == foremost ? widgets::Rank::primary : widgets::Rank::normal;
 }
 
 /// Below the buttons, none of which moves when a plan is finished while a hand goes to it.
-void draw_note(Ui& ui, const Workbench& now) {
+void draw_note(Ui& ui, const FrameState& now) {
     for (const std::string& note : no_gain_notes(now)) {
         ui.note(note);
     }
     const bool is_there = std::ranges::any_of(project::compared_methods, [&](GridMethod method) {
-        return plan::is_left_out(now.project, method) && now.evaluation(method); // of before, and still so
+        return plan::is_comparison_skipped(now.project, method) &&
+               now.evaluation(method); // of before, and still so
     });
-    if (const std::string left_out = plan::left_out_sentence(now.project); !left_out.empty() && !is_there) {
+    if (const std::string left_out = plan::skipped_comparisons_sentence(now.project);
+        !left_out.empty() && !is_there) {
         ui.note(left_out);
     }
     if (!plan::follows_nodes(now.project.toolpath.strategy)) {
@@ -154,7 +157,7 @@ void draw_note(Ui& ui, const Workbench& now) {
 
 } // namespace
 
-void GridPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void GridPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_grid(ui, now, ask);
     draw_watched(ui, now, ask);
     draw_note(ui, now);
@@ -165,7 +168,7 @@ void GridPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_elliptic(ui, now, ask);
 }
 
-void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_grid(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("grid", "Grid");
     if (!section) {
         return;
@@ -192,7 +195,7 @@ void GridPanel::draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const 
 }
 
 /// The methods that can be run.
-void GridPanel::draw_methods(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_methods(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     {
         const auto row = ui.row(3);
         action_button(ui,
@@ -226,7 +229,7 @@ void GridPanel::draw_methods(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
 }
 
-void GridPanel::draw_playing(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_playing(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto row = ui.row(3);
     const bool playing = now.watched->playing;
     action_button(ui,
@@ -242,7 +245,7 @@ void GridPanel::draw_playing(Ui& ui, const Workbench& now, ActionQueue& ask) con
 
 namespace {
 
-void watched_values(Ui& ui, const Workbench& now, const grid::ImproverState& state) {
+void watched_values(Ui& ui, const FrameState& now, const grid::OptimiserState& state) {
     if (now.watched->method != GridMethod::redistribution) { // which is done in one go
         ui.value("rounds", "Rounds completed", fmt::format("{}", state.round));
         ui.value("iterations", "Iteration", fmt::format("{}", state.iteration));
@@ -268,7 +271,7 @@ void watched_values(Ui& ui, const Workbench& now, const grid::ImproverState& sta
 
 } // namespace
 
-void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_watched(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("watch", "Grid optimisation");
     if (!section) {
         return;
@@ -286,8 +289,8 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     if (const auto& state = now.watched->state) {
         norm_plot(ui, state->norms);
     }
-    if (const auto& state = now.watched->state; state && state->links.size() > 1) {
-        draw_links(ui, state->links, turns_the_tool(now));
+    if (const auto& state = now.watched->state; state && state->stages.size() > 1) {
+        draw_chain_stages(ui, state->stages, turns_the_tool(now));
     }
     const GridMethod watched = now.watched->method;
     const bool is_of_use = plan::follows_nodes(now.project.toolpath.strategy) && !now.watched->failed();
@@ -306,7 +309,7 @@ void GridPanel::draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) con
     }
 }
 
-void GridPanel::draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_redistribution(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     if (!is_in_hand(now, GridMethod::redistribution)) {
         return;
     }
@@ -322,7 +325,7 @@ void GridPanel::draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& a
         [](Project& p) -> project::RedistributionInput& { return p.grid.redistribution; });
 }
 
-void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_tracks(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("tracks", "Track optimiser");
     if (!section) {
         return;
@@ -333,7 +336,7 @@ void GridPanel::draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         });
 }
 
-void GridPanel::draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_chain(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("chain", "Whole chain");
     if (!section) {
         return;
@@ -366,7 +369,7 @@ void expression_field(Ui& ui, ActionQueue& ask, const project::EllipticInput& in
 
 } // namespace
 
-void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void GridPanel::draw_elliptic(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const bool harmonic = is_in_hand(now, GridMethod::harmonic);
     const auto section = ui.section("elliptic", harmonic ? "Harmonic map" : "Elliptic adaptation");
     if (!section) {
@@ -388,7 +391,7 @@ void GridPanel::draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) co
     expression_field(ui, ask, input);
     if (ui.toggle("show_weight",
                   "Show weight",
-                  now.session.layers_now().weight,
+                  now.view_state.layers_now().weight,
                   "Colour the surface by the weight at the start of the adaptation")) {
         ask.run("view.layer_weight");
     }

@@ -11,17 +11,17 @@ namespace millwright::panels {
 class GridPanel final : public Panel {
 public:
     explicit GridPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_grid(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_watched(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_methods(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_playing(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_elliptic(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_redistribution(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_tracks(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_chain(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_grid(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_watched(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_methods(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_playing(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_elliptic(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_redistribution(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_tracks(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_chain(Ui& ui, const FrameState& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
 };

@@ -66,15 +66,15 @@ std::vector<ReadingBlock> page(HelpPage wanted, actions::Workspace workspace, co
 
 } // namespace
 
-void HelpPanel::refresh(const Workbench& now) {
-    if (shown_ != now.session.help || workspace_ != now.session.workspace) {
-        shown_ = now.session.help;
-        workspace_ = now.session.workspace;
+void HelpPanel::refresh(const FrameState& now) {
+    if (shown_ != now.view_state.help || workspace_ != now.view_state.workspace) {
+        shown_ = now.view_state.help;
+        workspace_ = now.view_state.workspace;
         blocks_ = page(shown_, workspace_, catalogue_);
     }
 }
 
-void HelpPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void HelpPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     constexpr float widest = 900.0F, margin = 80.0F, share = 0.6F;
     refresh(now);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -83,10 +83,10 @@ void HelpPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
         return;
     }
     const bool again = render::key_pressed(render::Key::f1);
-    const auto at = std::ranges::find(page_order, now.session.help) - page_order.begin();
+    const auto at = std::ranges::find(page_order, now.view_state.help) - page_order.begin();
     if (const auto chosen = ui.tabs("pages", static_cast<int>(at), help_topics)) {
-        ask.show([wanted = page_order[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
-            session.help = wanted;
+        ask.show([wanted = page_order[static_cast<std::size_t>(*chosen)]](actions::ViewState& view_state) {
+            view_state.help = wanted;
         });
     }
     const std::string name(help_topics[static_cast<std::size_t>(at)].id);
@@ -96,7 +96,7 @@ void HelpPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     const auto width = ui.width(ui.px(120.0F));
     if (ui.button("close", "Close", {}, {{}, widgets::Rank::primary, -1.0F, "Esc"}) || ui.escape_pressed() ||
         again) {
-        ask.show([](actions::Session& session) { session.help = HelpPage::none; });
+        ask.show([](actions::ViewState& view_state) { view_state.help = HelpPage::none; });
     }
 }
 

@@ -12,10 +12,10 @@ namespace millwright::panels {
 class HelpPanel final : public Panel {
 public:
     explicit HelpPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void refresh(const Workbench& now);
+    void refresh(const FrameState& now);
 
     const actions::Catalogue& catalogue_;
     actions::HelpPage shown_ = actions::HelpPage::none;

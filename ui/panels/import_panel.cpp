@@ -4,8 +4,8 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/exchange/patch_fit.h"
-#include "ui/actions/import_bench.h"
-#include "ui/actions/workshop.h"
+#include "ui/actions/app_controller.h"
+#include "ui/actions/pending_import.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
@@ -26,7 +26,7 @@ using project::ImportChoice;
 using widgets::Option;
 
 void choose_import(ActionQueue& ask, const ImportChoice& choice) {
-    ask.files([choice](actions::Workshop& workshop) { workshop.import().choose(choice); });
+    ask.files([choice](actions::AppController& app) { app.import().choose(choice); });
 }
 
 std::string size_text(const Vec3& size) {
@@ -298,7 +298,7 @@ void draw_file(Ui& ui, const ImportResult& found) {
 
 } // namespace
 
-void import_panel(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+void import_panel(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
     const auto scope = ui.scope("import");
     const auto found = now.import.latest();
     if (found && found->source) {

@@ -10,7 +10,7 @@ namespace {
 
 /// A controller that plans for itself tells lines and no times: then those of our plan, from the line that it
 /// is at as far as is known.
-std::optional<double> left_by_lines(const Workbench& now, const jobs::JobReport& report) {
+std::optional<double> left_by_lines(const FrameState& now, const jobs::JobReport& report) {
     if (!now.job_is_shown() || !now.in_file() || !now.opened->motion || !now.job.listing) {
         return std::nullopt;
     }
@@ -38,8 +38,8 @@ std::optional<double> left_by_lines(const Workbench& now, const jobs::JobReport&
 
 } // namespace
 
-std::optional<double> job_time_left(const Workbench& now, const jobs::JobReport& report) {
-    if (now.controller.connected() && now.controller.can.plans) {
+std::optional<double> job_time_left(const FrameState& now, const jobs::JobReport& report) {
+    if (now.connection.connected() && now.connection.can.plans) {
         return left_by_lines(now, report);
     }
     // What begins at a line is a job of its own, with a way in and times that are not the program's.

@@ -9,6 +9,6 @@
 namespace millwright::panels {
 
 /// By the plan; nothing where there is none. May be below 0 where the machine is slower than its plan.
-[[nodiscard]] std::optional<double> job_time_left(const Workbench& now, const jobs::JobReport& report);
+[[nodiscard]] std::optional<double> job_time_left(const FrameState& now, const jobs::JobReport& report);
 
 } // namespace millwright::panels

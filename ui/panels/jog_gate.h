@@ -3,7 +3,7 @@
 // press.
 #pragma once
 
-#include "ui/actions/session.h"
+#include "ui/actions/view_state.h"
 
 #include <chrono>
 

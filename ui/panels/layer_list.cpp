@@ -8,9 +8,9 @@
 
 namespace millwright::panels {
 
-void layer_rows(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+void layer_rows(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
     using Of = viewport::LayerSwitch::Of;
-    const Of shown = now.session.workspace == actions::Workspace::arm ? Of::arm : Of::part;
+    const Of shown = now.view_state.workspace == actions::Workspace::arm ? Of::arm : Of::part;
     for (const viewport::LayerSwitch& which : viewport::layer_switches) {
         if (which.of != shown && which.of != Of::both) {
             continue;
@@ -35,7 +35,7 @@ void layer_rows(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::C
 }
 
 void layer_button(Ui& ui,
-                  const Workbench& now,
+                  const FrameState& now,
                   ActionQueue& ask,
                   const actions::Catalogue& catalogue,
                   const widgets::Point& at) {

@@ -6,11 +6,11 @@
 namespace millwright::panels {
 
 /// The rows of an open menu: an eye a layer, and below them the way back.
-void layer_rows(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue);
+void layer_rows(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue);
 
 /// The button that opens them, its upper left corner at `at`.
 void layer_button(Ui& ui,
-                  const Workbench& now,
+                  const FrameState& now,
                   ActionQueue& ask,
                   const actions::Catalogue& catalogue,
                   const widgets::Point& at);

@@ -19,7 +19,7 @@ using widgets::FieldInfo;
 
 /// A step that begins with the levels that are in force.
 void edit_levels(ActionQueue& ask,
-                 const Workbench& now,
+                 const FrameState& now,
                  const std::string& title,
                  std::function<void(std::vector<Level>&)> change) {
     ask.edit(title, [levels = now.plot.levels(), change = std::move(change)](project::Project& draft) {
@@ -29,7 +29,7 @@ void edit_levels(ActionQueue& ask,
 }
 
 void level_field(Ui& ui,
-                 const Workbench& now,
+                 const FrameState& now,
                  ActionQueue& ask,
                  std::size_t n,
                  const project::NumberSetting<Level>& setting) {
@@ -58,7 +58,7 @@ void level_field(Ui& ui,
 }
 
 /// As for all pens, or a side of its own.
-void side_field(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) {
+void side_field(Ui& ui, const FrameState& now, ActionQueue& ask, std::size_t n) {
     std::vector<widgets::Option> options{{"as_all", "Same as Cutter", {}, {}}};
     int at = 0;
     const auto sides = project::cutter_sides();
@@ -79,7 +79,7 @@ void side_field(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) {
 
 } // namespace
 
-void level_fields(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n) {
+void level_fields(Ui& ui, const FrameState& now, ActionQueue& ask, std::size_t n) {
     const Level level = now.plot.levels()[n];
     const auto scope = ui.scope("level");
     ui.gap();

@@ -7,7 +7,7 @@
 
 namespace millwright::panels {
 
-/// Of level `n` of those that are in force, PlotBench::levels().
-void level_fields(Ui& ui, const Workbench& now, ActionQueue& ask, std::size_t n);
+/// Of level `n` of those that are in force, PlotWorkspace::levels().
+void level_fields(Ui& ui, const FrameState& now, ActionQueue& ask, std::size_t n);
 
 } // namespace millwright::panels

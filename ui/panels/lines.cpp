@@ -2,7 +2,7 @@
 
 namespace millwright::panels {
 
-std::ptrdiff_t current_line(const Workbench& now) {
+std::ptrdiff_t current_line(const FrameState& now) {
     if (now.in_file()) {
         const auto place = now.file_place();
         return place ? place->line - 1 : -1;
@@ -13,14 +13,14 @@ std::ptrdiff_t current_line(const Workbench& now) {
 }
 
 void go_to_time(ActionQueue& ask, double time) {
-    ask.show([time](actions::Session& session) {
-        session.playback.playing = false;
-        session.playback.time = time;
-        session.file.step.reset();
+    ask.show([time](actions::ViewState& view_state) {
+        view_state.playback.playing = false;
+        view_state.playback.time = time;
+        view_state.file.step.reset();
     });
 }
 
-void go_to_line(const Workbench& now, ActionQueue& ask, std::ptrdiff_t line) {
+void go_to_line(const FrameState& now, ActionQueue& ask, std::ptrdiff_t line) {
     if (now.follows_job()) {
         return;
     }
@@ -37,10 +37,10 @@ void go_to_line(const Workbench& now, ActionQueue& ask, std::ptrdiff_t line) {
         return;
     }
     const gcode::Step step = now.opened->execution->step_at_or_after(static_cast<int>(line) + 1);
-    ask.show([step, time = actions::time_of(*now.opened, step)](actions::Session& session) {
-        session.playback.playing = false;
-        session.playback.time = time;
-        session.file.step = step;
+    ask.show([step, time = actions::time_of(*now.opened, step)](actions::ViewState& view_state) {
+        view_state.playback.playing = false;
+        view_state.playback.time = time;
+        view_state.file.step = step;
     });
 }
 

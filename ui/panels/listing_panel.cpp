@@ -16,8 +16,8 @@ namespace {
 namespace icons = widgets::icons;
 using widgets::Permission;
 
-constexpr std::size_t bytes_a_frame = std::size_t{2} << 20U; // to count in: 2 to 4 ms
-constexpr std::size_t most_shown = 2000;                     // characters of a line
+constexpr std::size_t bytes_per_frame = std::size_t{2} << 20U; // to count in: 2 to 4 ms
+constexpr std::size_t most_shown = 2000;                       // characters of a line
 
 std::string shown_part(std::string_view line) {
     return line.size() <= most_shown ? std::string(line) : std::string(line.substr(0, most_shown)) + "\u2026";
@@ -26,7 +26,7 @@ std::string shown_part(std::string_view line) {
 } // namespace
 
 /// Holds on to what the lines belong to, so that an index never outlives its text.
-void ListingPanel::follow(const Workbench& now) {
+void ListingPanel::follow(const FrameState& now) {
     std::shared_ptr<const void> text;
     if (now.in_file()) {
         text = now.opened->text;
@@ -58,7 +58,7 @@ void ListingPanel::follow(const Workbench& now) {
     }
 }
 
-void ListingPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ListingPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     follow(now);
     if (lines_ != nullptr) {
         draw_search(ui, now, ask);
@@ -67,7 +67,7 @@ void ListingPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_lines(ui, now, ask);
 }
 
-void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ListingPanel::draw_search(Ui& ui, const FrameState& now, ActionQueue& ask) {
     // of the width: beside it stands how many places were found
     const float line_share = wanted_.empty() ? 1.0F : 0.66F;
     constexpr float buttons = 76.0F;
@@ -76,9 +76,9 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
     {
         const auto width = ui.width(whole - ui.px(buttons));
         const auto labels = ui.label_share(label / (whole - ui.px(buttons)));
-        if (now.session.file.find_wanted) {
+        if (now.view_state.file.find_wanted) {
             ui.focus_field(ui.path("find"));
-            ask.show([](actions::Session& session) { session.file.find_wanted = false; });
+            ask.show([](actions::ViewState& view_state) { view_state.file.find_wanted = false; });
         }
         if (const auto text =
                 ui.search_field("find", "Find", wanted_, "Search text; Enter finds the next match")) {
@@ -94,14 +94,14 @@ void ListingPanel::draw_search(Ui& ui, const Workbench& now, ActionQueue& ask) {
     if (ui.icon_button("next", icons::chevron_down, "Next match (Ctrl+G)", can)) {
         go_on(1, now, ask);
     }
-    if (now.session.file.find_next != 0) {
+    if (now.view_state.file.find_next != 0) {
         if (can.allowed) {
-            go_on(now.session.file.find_next, now, ask);
+            go_on(now.view_state.file.find_next, now, ask);
         }
-        ask.show([](actions::Session& session) { session.file.find_next = 0; });
+        ask.show([](actions::ViewState& view_state) { view_state.file.find_next = 0; });
     }
     if (count_ && !count_->done()) {
-        count_->advance(bytes_a_frame);
+        count_->advance(bytes_per_frame);
         ui.change_in(0.0);
     }
     const std::string of_all = fmt::format("of {}", lines_->count());
@@ -135,7 +135,7 @@ std::string ListingPanel::count_text() const {
     return count_->done() ? count : count + " \u2026";
 }
 
-void ListingPanel::look_for(const std::string& wanted, const Workbench& now, ActionQueue& ask) {
+void ListingPanel::look_for(const std::string& wanted, const FrameState& now, ActionQueue& ask) {
     wanted_ = wanted;
     found_.reset();
     count_.reset();
@@ -146,7 +146,7 @@ void ListingPanel::look_for(const std::string& wanted, const Workbench& now, Act
 }
 
 /// From the hit that is shown, else from the current line; around the end of the text.
-void ListingPanel::go_on(int direction, const Workbench& now, ActionQueue& ask) {
+void ListingPanel::go_on(int direction, const FrameState& now, ActionQueue& ask) {
     const TextPattern pattern(wanted_);
     const std::string_view text = lines_->text();
     const std::ptrdiff_t current = std::max<std::ptrdiff_t>(current_line(now), 0);
@@ -163,7 +163,7 @@ void ListingPanel::go_on(int direction, const Workbench& now, ActionQueue& ask) 
     }
 }
 
-void ListingPanel::draw_lines(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ListingPanel::draw_lines(Ui& ui, const FrameState& now, ActionQueue& ask) {
     follow(now);
     if (lines_ == nullptr) {
         ui.note(now.in_file() ? "Opening the file \u2026"

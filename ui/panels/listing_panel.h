@@ -16,15 +16,15 @@ namespace millwright::panels {
 class ListingPanel final : public Panel {
 public:
     /// With the row that searches, then the lines.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
     /// The lines alone.
-    void draw_lines(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_lines(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 private:
-    void follow(const Workbench& now);
-    void draw_search(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void look_for(const std::string& wanted, const Workbench& now, ActionQueue& ask);
-    void go_on(int direction, const Workbench& now, ActionQueue& ask);
+    void follow(const FrameState& now);
+    void draw_search(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void look_for(const std::string& wanted, const FrameState& now, ActionQueue& ask);
+    void go_on(int direction, const FrameState& now, ActionQueue& ask);
     [[nodiscard]] std::string count_text() const;
 
     std::shared_ptr<const void> shown_;                 ///< what `lines_` is an index of

@@ -61,7 +61,10 @@ std::span<const Tab> tabs_of(actions::Workspace workspace) {
 }
 
 /// The time at which the program has done the move that lies at `length` of the path.
-void go_to_length(ActionQueue& ask, const Workbench& now, const plan::Evaluation& evaluation, double length) {
+void go_to_length(ActionQueue& ask,
+                  const FrameState& now,
+                  const plan::Evaluation& evaluation,
+                  double length) {
     const auto trajectory = now.trajectory();
     const auto program = now.program();
     if (!trajectory || !program) {
@@ -76,28 +79,28 @@ void go_to_length(ActionQueue& ask, const Workbench& now, const plan::Evaluation
     const std::vector<int> blocks = program::blocks_of_points(*program, points);
     const std::size_t point = std::min(move + 1, blocks.size() - 1);
     if (blocks[point] >= 0) {
-        ask.show([time = trajectory->start_of(blocks[point])](actions::Session& session) {
-            session.playback.playing = false;
-            session.playback.time = time;
+        ask.show([time = trajectory->start_of(blocks[point])](actions::ViewState& view_state) {
+            view_state.playback.playing = false;
+            view_state.playback.time = time;
         });
     }
 }
 
 } // namespace
 
-void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const auto tabs = tabs_of(now.session.workspace);
+void LowerPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const auto tabs = tabs_of(now.view_state.workspace);
     std::vector<widgets::Option> options;
     for (const Tab& tab : tabs) {
         options.push_back(tab.option);
     }
-    const auto at = std::ranges::find(tabs, now.session.lower_tab_now(), &Tab::tab);
+    const auto at = std::ranges::find(tabs, now.view_state.lower_tab_now(), &Tab::tab);
     if (const auto chosen = ui.tabs("tabs", static_cast<int>(at - tabs.begin()), options)) {
-        ask.show([t = tabs[static_cast<std::size_t>(*chosen)].tab](actions::Session& session) {
-            session.lower_tab_now() = t;
+        ask.show([t = tabs[static_cast<std::size_t>(*chosen)].tab](actions::ViewState& view_state) {
+            view_state.lower_tab_now() = t;
         });
     }
-    switch (now.session.lower_tab_now()) {
+    switch (now.view_state.lower_tab_now()) {
     case LowerTab::plots:
         return draw_plots(ui, now, ask);
     case LowerTab::motion:
@@ -136,7 +139,7 @@ void LowerPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void LowerPanel::draw_plots(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const std::vector<PlottedPath> paths = plotted_paths(now);
     if (paths.empty()) {
         ui.note(now.shown() ? "No path of the project is displayed." : "No path yet.");
@@ -157,7 +160,7 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.y_label = "error";
     view.y_unit = "mm";
     view.series = series;
-    view.limit_y = now.session.error.limit;
+    view.limit_y = now.view_state.error.limit;
     const plan::Evaluation& shown = *paths.back().path;
     const bool is_program = paths.back().path == now.program_path();
     const auto moment = now.moment();
@@ -169,7 +172,7 @@ void LowerPanel::draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
+void LowerPanel::draw_jobs(Ui& ui, const FrameState& now) const {
     if (now.job.name.empty()) {
         ui.note("No job has been run yet. Use Machine > Run the program (F9).");
         return;
@@ -190,11 +193,11 @@ void LowerPanel::draw_jobs(Ui& ui, const Workbench& now) const {
     }
 }
 
-void LowerPanel::draw_log(Ui& ui, const Workbench& now) const {
-    if (now.session.log.empty()) {
+void LowerPanel::draw_log(Ui& ui, const FrameState& now) const {
+    if (now.view_state.log.empty()) {
         ui.note("The log is empty.");
     }
-    for (auto line = now.session.log.rbegin(); line != now.session.log.rend(); ++line) {
+    for (auto line = now.view_state.log.rbegin(); line != now.view_state.log.rend(); ++line) {
         ui.text(*line);
     }
 }

@@ -20,12 +20,12 @@ class LowerPanel final : public Panel {
 public:
     explicit LowerPanel(const actions::Catalogue& catalogue)
         : queue_(catalogue), points_(catalogue), motion_program_(catalogue), motion_file_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_plots(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_jobs(Ui& ui, const Workbench& now) const;
-    void draw_log(Ui& ui, const Workbench& now) const;
+    void draw_plots(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_jobs(Ui& ui, const FrameState& now) const;
+    void draw_log(Ui& ui, const FrameState& now) const;
 
     MotionPlots motion_;
     ListingPanel listing_;

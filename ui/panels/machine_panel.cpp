@@ -4,9 +4,9 @@
 #include "ui/actions/job_source.h"
 #include "ui/actions/run_check.h"
 #include "ui/panels/axis_positions.h"
-#include "ui/panels/begin_fields.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/job_time_left.h"
+#include "ui/panels/start_line_fields.h"
 #include "ui/panels/tool_change_fields.h"
 #include "ui/widgets/notices.h"
 
@@ -42,14 +42,14 @@ int speed_index(double speed) {
 }
 
 /// A controller is chosen and not connected.
-bool waits_for_a_link(const Workbench& now) {
-    return now.controller.link == actions::LinkState::none &&
-           now.session.hand.choice.driver != machine::virtual_driver;
+bool waits_for_a_link(const FrameState& now) {
+    return now.connection.link == actions::LinkState::none &&
+           now.view_state.manual.choice.driver != machine::virtual_driver;
 }
 
-std::string checked_sentence(const Workbench& now, const std::string& name) {
+std::string checked_sentence(const FrameState& now, const std::string& name) {
     const bool another =
-        now.controller.connected() && now.controller.choice.driver != machine::virtual_driver;
+        now.connection.connected() && now.connection.choice.driver != machine::virtual_driver;
     const auto is_bounded = [](const auto& axis) { return axis.min.has_value() && axis.max.has_value(); };
     const bool both = another && now.run_check != nullptr && now.run_check->faults.empty() &&
                       now.run_check->wish->source.as_text &&
@@ -65,12 +65,12 @@ std::string checked_sentence(const Workbench& now, const std::string& name) {
 }
 
 /// 1/min that the program shown begins with, on a machine that has no words for its spindle.
-std::optional<double> spindle_by_hand(const Workbench& now) {
+std::optional<double> spindle_by_hand(const FrameState& now) {
     const bool in_file = now.in_file();
     const auto program = !in_file             ? now.program()
                          : now.opened->motion ? now.opened->motion->program
                                               : nullptr;
-    if (!now.controller.connected() || now.controller.row().kind != machine::MachineKind::positioned ||
+    if (!now.connection.connected() || now.connection.row().kind != machine::MachineKind::positioned ||
         !program) {
         return std::nullopt;
     }
@@ -83,28 +83,28 @@ std::optional<double> spindle_by_hand(const Workbench& now) {
 
 } // namespace
 
-void MachinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void MachinePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     connection_.draw(ui, now, ask);
     if (now.arm_connected()) { // it takes no G-code, and has no spindle and no work offsets
         return;
     }
     draw_job(ui, now, ask);
     tool_change_fields(ui, now, ask);
-    if (now.controller.connected()) {
+    if (now.connection.connected()) {
         controls_.draw(ui, now, ask);
     }
 }
 
-void MachinePanel::draw_left(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (now.controller.connected()) {
-        hand_.draw(ui, now, ask);
+void MachinePanel::draw_left(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    if (now.connection.connected()) {
+        manual_.draw(ui, now, ask);
         connection_.draw_messages(ui, now, ask);
     } else {
         draw_position(ui, now);
     }
 }
 
-void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
+void MachinePanel::draw_position(Ui& ui, const FrameState& now) const {
     const auto section =
         ui.section("position", now.follows_job() ? "Machine position" : "Position at timeline");
     if (section) {
@@ -113,7 +113,7 @@ void MachinePanel::draw_position(Ui& ui, const Workbench& now) const {
 }
 
 /// What is known before anything is sent.
-void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
+void MachinePanel::draw_findings(Ui& ui, const FrameState& now) const {
     const bool is_said = now.follows_job() || !actions::axes_ready(now).allowed;
     if (const auto checked = actions::run_check_passed(now); !checked.allowed && !is_said) {
         (void)widgets::banner(ui, "findings", {widgets::Severity::warning, checked.reason, {}});
@@ -123,7 +123,7 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
         return;
     }
     const auto& opened = *now.opened;
-    if (opened.start_notice && !now.controller.connected()) { // a connected machine knows where it is
+    if (opened.start_notice && !now.connection.connected()) { // a connected machine knows where it is
         ui.note(fmt::format("Line {}: {}.", opened.start_notice->place.line, opened.start_notice->message));
     }
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
@@ -141,22 +141,21 @@ void MachinePanel::draw_findings(Ui& ui, const Workbench& now) const {
 }
 
 /// How a program is run: how fast, or block by block.
-void MachinePanel::draw_mode(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    if (now.controller.link == actions::LinkState::none) {
+void MachinePanel::draw_mode(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    if (now.connection.link == actions::LinkState::none) {
         if (const auto chosen = ui.choice("speed",
                                           "Virtual machine",
-                                          speed_index(now.session.machine_speed),
+                                          speed_index(now.view_state.machine_speed),
                                           machine_speed_options,
                                           "Simulation speed of the virtual machine")) {
-            ask.show([speed = machine_speeds[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
-                session.machine_speed = speed;
-            });
+            ask.show([speed = machine_speeds[static_cast<std::size_t>(*chosen)]](
+                         actions::ViewState& view_state) { view_state.machine_speed = speed; });
         }
-    } else if (now.controller.can.single_block) {
+    } else if (now.connection.can.single_block) {
         const actions::Action& single = catalogue_.find("machine.single_block");
         if (ui.toggle("single_block",
                       "Single block",
-                      now.session.hand.single_block,
+                      now.view_state.manual.single_block,
                       single.info().tip,
                       single.permission(now))) {
             ask.run("machine.single_block");
@@ -165,9 +164,9 @@ void MachinePanel::draw_mode(Ui& ui, const Workbench& now, ActionQueue& ask) con
 }
 
 /// What acts on a running job.
-void MachinePanel::draw_stops(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MachinePanel::draw_stops(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     {
-        const drivers::DriverStatus& status = now.controller.status;
+        const drivers::DriverStatus& status = now.connection.status;
         const bool waits = actions::waits_for_tool(status) && !status.tool_change->held;
         const auto row = ui.row(3);
         action_button(ui, now, ask, catalogue_, "machine.hold", widgets::Rank::normal, "Hold");
@@ -184,15 +183,15 @@ void MachinePanel::draw_stops(Ui& ui, const Workbench& now, ActionQueue& ask) co
     ui.keep_clear(ui.path("machine_emergency_stop"));
 }
 
-void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MachinePanel::draw_job(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("job", "Job");
     if (!section) {
         return;
     }
     ui.value("program", "Program", now.in_file() ? now.opened->file.filename().string() : now.project.name);
     draw_mode(ui, now, ask);
-    begin_fields(ui, now, ask);
-    const actions::BeginAt& begin = now.session.begin;
+    start_line_fields(ui, now, ask);
+    const actions::StartAt& begin = now.view_state.start_at;
     action_button(ui,
                   now,
                   ask,
@@ -221,7 +220,7 @@ void MachinePanel::draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     draw_progress(ui, now, ask);
 }
 
-void MachinePanel::draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MachinePanel::draw_progress(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     if (!now.job.name.empty() && !now.job_is_shown()) { // begun from the queue
         ui.value("of",
                  now.job.running ? "Running" : "Last job",

@@ -4,7 +4,7 @@
 
 #include "ui/panels/connection_panel.h"
 #include "ui/panels/controls_panel.h"
-#include "ui/panels/hand_panel.h"
+#include "ui/panels/manual_panel.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {
@@ -12,24 +12,24 @@ namespace millwright::panels {
 class MachinePanel final : public Panel {
 public:
     explicit MachinePanel(const actions::Catalogue& catalogue)
-        : catalogue_(catalogue), connection_(catalogue), controls_(catalogue), hand_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+        : catalogue_(catalogue), connection_(catalogue), controls_(catalogue), manual_(catalogue) {}
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
     /// The position, and what moves the machine by hand.
-    void draw_left(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_left(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 private:
-    void draw_position(Ui& ui, const Workbench& now) const;
-    void draw_job(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_mode(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_stops(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_position(Ui& ui, const FrameState& now) const;
+    void draw_job(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_mode(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_stops(Ui& ui, const FrameState& now, ActionQueue& ask) const;
 
-    void draw_findings(Ui& ui, const Workbench& now) const;
-    void draw_progress(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_findings(Ui& ui, const FrameState& now) const;
+    void draw_progress(Ui& ui, const FrameState& now, ActionQueue& ask) const;
 
     const actions::Catalogue& catalogue_;
     ConnectionPanel connection_;
     ControlsPanel controls_;
-    HandPanel hand_;
+    ManualPanel manual_;
 };
 
 } // namespace millwright::panels

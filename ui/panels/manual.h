@@ -1,7 +1,7 @@
 // The manual inside of the program: pages of docs/, as they are written, for the window of help.
 #pragma once
 
-#include "ui/actions/session.h"
+#include "ui/actions/view_state.h"
 #include "ui/widgets/reading.h"
 
 #include <string_view>

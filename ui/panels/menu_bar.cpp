@@ -97,7 +97,7 @@ const Submenu* submenu_of(std::string_view action_id) {
     return found == submenus.end() ? nullptr : found;
 }
 
-void draw_item(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Action& action) {
+void draw_item(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Action& action) {
     const actions::ActionInfo& info = action.info();
     if (widgets::menu_item(
             ui, widget_id(info.id), info.title, info.shortcut, action.permission(now), action.is_on(now))) {
@@ -127,7 +127,7 @@ bool begins_group(std::string_view id) {
 
 } // namespace
 
-void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void MenuBar::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     constexpr float left = 12.0F;
     constexpr float top = 10.0F;
     constexpr float tabs_above = 2.0F; // they are that much higher than the rest of the bar
@@ -143,9 +143,10 @@ void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     {
         const auto width = ui.width(std::max(ui.rest().w - tools, ui.px(least_tabs)));
-        if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.session.workspace), shown)) {
-            ask.show(
-                [w = static_cast<Workspace>(*chosen)](actions::Session& session) { session.workspace = w; });
+        if (const auto chosen = ui.tabs("workspaces", static_cast<int>(now.view_state.workspace), shown)) {
+            ask.show([w = static_cast<Workspace>(*chosen)](actions::ViewState& view_state) {
+                view_state.workspace = w;
+            });
         }
     }
     ui.beside();
@@ -154,7 +155,7 @@ void MenuBar::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// What is wanted often, by icon, and the way to everything else.
-void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MenuBar::draw_tools(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     for (const std::string_view id : {"file.save", "edit.undo", "edit.redo"}) {
         const actions::Action& action = catalogue_.find(id);
         const actions::ActionInfo& info = action.info();
@@ -183,9 +184,9 @@ void MenuBar::draw_tools(Ui& ui, const Workbench& now, ActionQueue& ask) const {
     }
 }
 
-void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MenuBar::draw_menus(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     for (const std::string_view title : menus) {
-        if (!has_room(title, now.session.workspace)) {
+        if (!has_room(title, now.view_state.workspace)) {
             continue;
         }
         if (title != menus.front()) {
@@ -222,7 +223,7 @@ void MenuBar::draw_menus(Ui& ui, const Workbench& now, ActionQueue& ask) const {
 }
 
 void MenuBar::draw_submenu(Ui& ui,
-                           const Workbench& now,
+                           const FrameState& now,
                            ActionQueue& ask,
                            std::string_view id,
                            std::string_view label,
@@ -236,7 +237,7 @@ void MenuBar::draw_submenu(Ui& ui,
     }
 }
 
-void MenuBar::draw_files(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void MenuBar::draw_files(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     widgets::menu_line(ui);
     if (const auto samples = widgets::submenu(ui, "samples", "Open a sample")) {
         for (const std::filesystem::path& sample : project::sample_projects(now.assets)) {

@@ -1,6 +1,6 @@
 #include "ui/panels/motion_file_panel.h"
 
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ MotionFilePanel::MotionFilePanel(const actions::Catalogue& catalogue)
     : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::motion_file>(
                                  "Edit the motion file", "motion file")) {}
 
-void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void MotionFilePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     {
         const auto row = ui.row(7);
         action_button(ui, now, ask, catalogue_, "arm.simulate_motion", Rank::primary, "Simulate");
@@ -56,8 +56,9 @@ void MotionFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                       1000.0,
                                       5.0,
                                       3};
-        if (const auto value = ui.number(now.session.hand.arm_result_step, step)) {
-            ask.show([to = *value](actions::Session& session) { session.hand.arm_result_step = to; });
+        if (const auto value = ui.number(now.view_state.manual.arm_result_step, step)) {
+            ask.show(
+                [to = *value](actions::ViewState& view_state) { view_state.manual.arm_result_step = to; });
         }
     }
     ui.beside();

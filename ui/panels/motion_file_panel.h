@@ -12,7 +12,7 @@ public:
     /// `catalogue` must outlive it.
     explicit MotionFilePanel(const actions::Catalogue& catalogue);
 
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
     const actions::Catalogue& catalogue_;

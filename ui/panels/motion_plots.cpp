@@ -15,7 +15,7 @@ constexpr std::array<widgets::Option, 2> motion_plot_choices{
 
 } // namespace
 
-const MotionSeries& MotionPlots::series(const Workbench& now) {
+const MotionSeries& MotionPlots::series(const FrameState& now) {
     const auto trajectory = now.trajectory();
     const bool as_programmed = !trajectory && now.in_file() && now.opened->execution &&
                                now.opened->finished && now.opened->seconds > 0.0 && !now.opened->path.empty();
@@ -32,7 +32,7 @@ const MotionSeries& MotionPlots::series(const Workbench& now) {
     series_ = {};
     if (trajectory) {
         const kinematics::MachineModel& machine =
-            now.in_file() ? *now.opened->machine : now.plan->plan.workpiece->machine;
+            now.in_file() ? *now.opened->machine : now.plan->plan.cutting_setup->machine;
         series_ = motion_series(*trajectory, *now.program(), machine, motion_plot_columns);
     } else if (as_programmed) {
         series_ = programmed_series(*now.opened, motion_plot_columns);
@@ -40,7 +40,7 @@ const MotionSeries& MotionPlots::series(const Workbench& now) {
     return series_;
 }
 
-void MotionPlots::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void MotionPlots::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const MotionSeries& all = series(now);
     if (all.time.empty()) {
         ui.note("No motion is planned yet.");

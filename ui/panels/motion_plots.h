@@ -10,10 +10,10 @@ namespace millwright::panels {
 
 class MotionPlots final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
     /// Of the motion that is shown; empty without one.
-    [[nodiscard]] const MotionSeries& series(const Workbench& now);
+    [[nodiscard]] const MotionSeries& series(const FrameState& now);
 
 private:
     enum class Shown { feed, axes };

@@ -1,6 +1,6 @@
 #include "ui/panels/motion_program_panel.h"
 
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
 
 namespace millwright::panels {
@@ -11,7 +11,7 @@ MotionProgramPanel::MotionProgramPanel(const actions::Catalogue& catalogue)
     : catalogue_(catalogue), editor_(edited_text<&project::Project::arm, &project::ArmInput::program>(
                                  "Edit the motion program", "motion program")) {}
 
-void MotionProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void MotionProgramPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     {
         const auto row = ui.row(6);
         action_button(ui, now, ask, catalogue_, "arm.simulate", Rank::primary, "Simulate");

@@ -11,7 +11,7 @@ public:
     /// `catalogue` must outlive it.
     explicit MotionProgramPanel(const actions::Catalogue& catalogue);
 
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
     const actions::Catalogue& catalogue_;

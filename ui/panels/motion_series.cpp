@@ -13,7 +13,7 @@ namespace millwright::panels {
 
 namespace {
 
-constexpr int moments_a_column = 6;
+constexpr int moments_per_column = 6;
 constexpr double gap = std::numeric_limits<double>::quiet_NaN();
 
 double speed_of(const motion::Sample& sample, const kinematics::MachineModel& machine) {
@@ -67,9 +67,9 @@ MotionSeries motion_series(const motion::Trajectory& trajectory,
         double fastest = -1.0;
         double fastest_time = 0.0;
         std::vector<double> shares(series.axes.size(), 0.0);
-        for (int k = 0; k < moments_a_column; ++k) {
+        for (int k = 0; k < moments_per_column; ++k) {
             const double time =
-                std::clamp(series.time[column] + step * (static_cast<double>(k) / moments_a_column - 0.5),
+                std::clamp(series.time[column] + step * (static_cast<double>(k) / moments_per_column - 0.5),
                            0.0,
                            trajectory.duration());
             const motion::Sample sample = trajectory.at(time);
@@ -95,7 +95,7 @@ MotionSeries programmed_series(const plan::OpenedProgram& opened, int columns) {
     MotionSeries series;
     series.time = even_times(opened.seconds, columns);
     for (std::size_t column = 0; column < series.time.size(); ++column) {
-        const gcode::PathPoint& point = opened.path.point(opened.path.place_at(series.time[column]).point);
+        const gcode::PreviewPoint& point = opened.path.point(opened.path.place_at(series.time[column]).point);
         const gcode::ModalView state = opened.execution->state_after(point.step());
         const double unit = state.unit == gcode::LengthUnit::inch ? gcode::mm_per_inch : 1.0;
         const bool rapid = point.kind() == gcode::PathKind::rapid;

@@ -13,7 +13,7 @@ namespace millwright::panels {
 
 struct NamedCurve {
     std::string name;
-    std::vector<double> values; ///< one a column; not finite: a gap
+    std::vector<double> values; ///< one per column; not finite: a gap
 };
 
 /// Columns at equal steps of time; of each stretch between two columns the fastest moment counts.

@@ -10,6 +10,6 @@ namespace millwright::panels {
 
 /// A note for each grid that keeps the uniform one and is not the program's, which has its own note:
 /// "Elliptic, as uniform: No grid was better than the start".
-[[nodiscard]] std::vector<std::string> no_gain_notes(const Workbench& now);
+[[nodiscard]] std::vector<std::string> no_gain_notes(const FrameState& now);
 
 } // namespace millwright::panels

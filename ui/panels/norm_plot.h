@@ -1,7 +1,7 @@
 // The norm of every iteration of the elliptic grid or the harmonic map, as a plot of the Grid workspace.
 #pragma once
 
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 #include "ui/widgets/ui.h"
 
 #include <vector>

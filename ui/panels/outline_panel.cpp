@@ -1,6 +1,6 @@
 #include "ui/panels/outline_panel.h"
 
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "ui/panels/outline_rows.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/table.h"
@@ -17,7 +17,7 @@ namespace millwright::panels {
 using actions::Workspace;
 using project::GridMethod;
 
-void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void OutlinePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     ui.heading(now.project.name);
     ui.note(now.document.file.empty() ? "not saved yet" : now.document.file.filename().string());
     ui.gap();
@@ -34,8 +34,9 @@ void OutlinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.row_id = [&](std::ptrdiff_t row) { return rows[static_cast<std::size_t>(row)].id; };
     if (const auto row = widgets::table(ui, "stages", view)) {
         const OutlineRow& chosen = rows[static_cast<std::size_t>(*row)];
-        ask.show(
-            [workspace = chosen.workspace](actions::Session& session) { session.workspace = workspace; });
+        ask.show([workspace = chosen.workspace](actions::ViewState& view_state) {
+            view_state.workspace = workspace;
+        });
         if (chosen.workspace == Workspace::toolpath && chosen.id != "toolpath") {
             ask.run("view.show_" + chosen.id);
         }

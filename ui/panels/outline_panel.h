@@ -8,7 +8,7 @@ namespace millwright::panels {
 
 class OutlinePanel final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 };
 
 } // namespace millwright::panels

@@ -3,9 +3,9 @@
 #include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/plan/grid_method.h"
-#include "core/plan/left_out.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "ui/actions/shown_grid.h"
 #include "ui/actions/wanted_plan.h"
 #include "ui/panels/numbers_text.h"
@@ -18,7 +18,7 @@
 
 namespace millwright::panels {
 
-using actions::Workbench;
+using actions::FrameState;
 using actions::Workspace;
 using project::GridMethod;
 
@@ -28,16 +28,16 @@ std::string mean_text(const plan::Evaluation& evaluation) {
     return (actions::is_so_far(evaluation) ? "~ " : "") + length_text(evaluation.closest.mean) + " mm";
 }
 
-std::string error_of(const Workbench& now, GridMethod method) {
+std::string error_of(const FrameState& now, GridMethod method) {
     const auto evaluation = now.evaluation(method);
     if (now.plan && now.plan->plan.grid(method).failure) {
         return "failed";
     }
-    if (evaluation && evaluation->outcome.status == grid::ImproverStatus::no_gain) {
+    if (evaluation && evaluation->outcome.status == grid::OptimiserStatus::no_gain) {
         return "= uniform";
     }
     if (!evaluation) {
-        return plan::is_left_out(now.project, method) ? "skipped" : "...";
+        return plan::is_comparison_skipped(now.project, method) ? "skipped" : "...";
     }
     return mean_text(*evaluation);
 }
@@ -53,9 +53,9 @@ std::string short_count(std::ptrdiff_t count, std::string_view one) {
 }
 
 /// Grids that are there, that the program uses, or that are made to compare where that is looked at.
-bool is_listed(const Workbench& now, GridMethod method) {
+bool is_listed(const FrameState& now, GridMethod method) {
     const bool compared = std::ranges::count(project::compared_methods, method) > 0 &&
-                          actions::wanted_plan(now.session, now.project).comparisons;
+                          actions::wanted_plan(now.view_state, now.project).comparisons;
     const bool failed = now.plan && now.plan->plan.grid(method).failure;
     return method == GridMethod::uniform || compared || failed || now.evaluation(method) ||
            plan::program_grid(now.project) == method;
@@ -71,7 +71,7 @@ std::string degree_text(const project::SurfaceInput& surface) {
 
 } // namespace
 
-std::vector<OutlineRow> outline_rows(const Workbench& now) {
+std::vector<OutlineRow> outline_rows(const FrameState& now) {
     std::vector<OutlineRow> rows{
         {"surface", "Surface", degree_text(now.project.surface), Workspace::design},
         {"grid", "Grid", fmt::format("{} x {}", now.project.grid.nu, now.project.grid.nv), Workspace::grid},

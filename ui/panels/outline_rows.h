@@ -1,7 +1,7 @@
 // The rows of the outline: the stages of the project with how each stands.
 #pragma once
 
-#include "ui/actions/workbench.h"
+#include "ui/actions/frame_state.h"
 
 #include <string>
 #include <vector>
@@ -16,6 +16,6 @@ struct OutlineRow {
 
 /// The grids with their mean error; toolpath, program and machine with what the program has, whatever is
 /// shown or watched.
-[[nodiscard]] std::vector<OutlineRow> outline_rows(const actions::Workbench& now);
+[[nodiscard]] std::vector<OutlineRow> outline_rows(const actions::FrameState& now);
 
 } // namespace millwright::panels

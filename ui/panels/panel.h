@@ -1,5 +1,5 @@
-// One pane of the window: shows the workbench and asks for actions, computes nothing. Members of panels are
-// view state only (scroll, half-typed text, what is folded).
+// One pane of the window: shows the frame's state and asks for actions, computes nothing. Members of panels
+// are view state only (scroll, half-typed text, what is folded).
 #pragma once
 
 #include "ui/actions/action.h"
@@ -8,7 +8,7 @@
 namespace millwright::panels {
 
 using actions::ActionQueue;
-using actions::Workbench;
+using actions::FrameState;
 using widgets::Ui;
 
 class Panel {
@@ -19,7 +19,7 @@ public:
     virtual ~Panel() = default;
 
     /// Into the current pane.
-    virtual void draw(Ui& ui, const Workbench& now, ActionQueue& ask) = 0;
+    virtual void draw(Ui& ui, const FrameState& now, ActionQueue& ask) = 0;
 };
 
 } // namespace millwright::panels

@@ -15,7 +15,7 @@ using geometry::Parameter;
 
 /// The points that are selected are not those of the new net.
 void reshape(ActionQueue& ask, std::string title, std::function<void(project::Project&)> change) {
-    ask.show([](actions::Session& session) { session.selected.clear(); });
+    ask.show([](actions::ViewState& view_state) { view_state.selected.clear(); });
     ask.edit(std::move(title), std::move(change));
 }
 
@@ -43,9 +43,9 @@ void degree_fields(Ui& ui, ActionQueue& ask, const geometry::ControlNet& net, in
 
 } // namespace
 
-int edited_patch(const Workbench& now) {
-    return now.session.selected.empty() ? now.project.surface.machined_patch
-                                        : static_cast<int>(now.session.selected.front().patch);
+int edited_patch(const FrameState& now) {
+    return now.view_state.selected.empty() ? now.project.surface.machined_patch
+                                           : static_cast<int>(now.view_state.selected.front().patch);
 }
 
 void PatchFields::draw_split(Ui& ui, ActionQueue& ask, int patch) {
@@ -75,7 +75,7 @@ void PatchFields::draw_split(Ui& ui, ActionQueue& ask, int patch) {
     button("split_v", "v", Parameter::v);
 }
 
-void PatchFields::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PatchFields::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("patch", "Patch");
     if (!section) {
         return;

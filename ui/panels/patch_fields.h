@@ -6,11 +6,11 @@
 namespace millwright::panels {
 
 /// The patch that the inspector shows: that of the selected control point, else the machined one.
-[[nodiscard]] int edited_patch(const Workbench& now);
+[[nodiscard]] int edited_patch(const FrameState& now);
 
 class PatchFields {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 private:
     void draw_split(Ui& ui, ActionQueue& ask, int patch);

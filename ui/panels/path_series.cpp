@@ -2,9 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "ui/actions/shown_grid.h"
-#include "ui/panels/beside.h"
+#include "ui/panels/compare_view.h"
 #include "ui/panels/view_panel.h"
 
 #include <algorithm>
@@ -29,20 +29,20 @@ ErrorOverPath error_over_path(const plan::Evaluation& evaluation) {
 namespace {
 
 PlottedPath
-named(const actions::Workbench& now, std::shared_ptr<const plan::Evaluation> path, std::string name) {
+named(const actions::FrameState& now, std::shared_ptr<const plan::Evaluation> path, std::string name) {
     const bool of_grid = std::ranges::any_of(project::every_grid_method, [&](project::GridMethod method) {
         return now.evaluation(method) == path;
     });
-    name += of_grid && path->outcome.status == grid::ImproverStatus::no_gain ? " (same as uniform)" : "";
+    name += of_grid && path->outcome.status == grid::OptimiserStatus::no_gain ? " (same as uniform)" : "";
     name += path == now.program_path() ? ", program path" : "";
     name += actions::is_so_far(*path) ? " (preliminary)" : "";
     return {std::move(path), std::move(name)};
 }
 
 /// What stands beside the path on screen, else the path over the uniform grid; null where there is neither.
-std::optional<PlottedPath> compared_path(const actions::Workbench& now) {
-    if (auto beside = path_beside(now)) {
-        return named(now, std::move(beside->path), std::move(beside->name));
+std::optional<PlottedPath> compared_path(const actions::FrameState& now) {
+    if (auto compared = path_to_compare(now)) {
+        return named(now, std::move(compared->path), std::move(compared->name));
     }
     auto uniform = now.evaluation(project::GridMethod::uniform);
     std::string name(project::row_of(project::grid_methods(), project::GridMethod::uniform).label);
@@ -51,9 +51,10 @@ std::optional<PlottedPath> compared_path(const actions::Workbench& now) {
 
 } // namespace
 
-std::vector<PlottedPath> plotted_paths(const actions::Workbench& now) {
+std::vector<PlottedPath> plotted_paths(const actions::FrameState& now) {
     const auto shown = now.shown();
-    if (!shown || now.in_file() || shows_import(now) || now.session.workspace == actions::Workspace::plot) {
+    if (!shown || now.in_file() || shows_import(now) ||
+        now.view_state.workspace == actions::Workspace::plot) {
         return {};
     }
     std::vector<PlottedPath> paths;

@@ -1,7 +1,7 @@
 // Curves over the length of the path, for plots and the timeline.
 #pragma once
 
-#include "ui/actions/workbench.h"
+#include "ui/actions/frame_state.h"
 
 #include <memory>
 #include <string>
@@ -26,7 +26,7 @@ struct PlottedPath {
 /// The path on screen comes last; before it what stands beside it, else that over the uniform grid, where it
 /// is another one. Empty where no path of the project is on screen: none is there yet, or a G-code file, a
 /// plot or a surface that is being imported is.
-[[nodiscard]] std::vector<PlottedPath> plotted_paths(const actions::Workbench& now);
+[[nodiscard]] std::vector<PlottedPath> plotted_paths(const actions::FrameState& now);
 
 /// Length of the path of `evaluation` up to `fraction` of `move`, mm; 0 before the path.
 [[nodiscard]] double length_before(const plan::Evaluation& evaluation, int move, double fraction);

@@ -116,7 +116,7 @@ float PicturePane::map_height(const Ui& ui) const {
     return std::clamp(filling, fitting, std::max(fitting, ui.px(most_height)));
 }
 
-void PicturePane::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PicturePane::draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const int side = shown_->picture.file_pixels;
     const auto line = ui.row(3);
     const auto& region = now.plot.settings().picture.region;
@@ -144,7 +144,7 @@ void PicturePane::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) {
                        : "Click two opposite corners to select the region to cut.");
 }
 
-void PicturePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PicturePane::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     if (!made || !made->shown_picture) {
         return;

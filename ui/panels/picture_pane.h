@@ -13,10 +13,10 @@ namespace millwright::panels {
 
 class PicturePane final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask);
     struct Cell {
         int row = 0; ///< from the top
         int column = 0;

@@ -305,7 +305,7 @@ void picture_fields(Ui& ui, ActionQueue& ask, const PlotSettings& set, const pla
 }
 
 /// That of a G-code program counts until a person types another; the reset button gives it back.
-void spindle_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void spindle_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const double usual = made && made->program_rpm > 0.0 ? made->program_rpm : project::usual_spindle_rpm;
     const auto& setting = project::plot_number("spindle_rpm");
@@ -345,7 +345,7 @@ void name_choice(Ui& ui,
     }
 }
 
-void drawing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void drawing_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     choice<project::DrawingUse>(ui,
                                 ask,
@@ -367,22 +367,22 @@ void drawing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     reading_fields(ui, ask, set);
 }
 
-bool stands_as_it_is(const Workbench& now) {
+bool stands_as_it_is(const FrameState& now) {
     return project::is_path_file(now.plot.file()) || project::is_point_file(now.plot.file()) ||
            project::is_gcode_file(now.plot.file());
 }
 
-widgets::Permission unless_path(const Workbench& now, const char* reason) {
+widgets::Permission unless_path(const FrameState& now, const char* reason) {
     return stands_as_it_is(now) ? widgets::Permission::refused(reason) : widgets::Permission{};
 }
 
 } // namespace
 
-bool cuts_strokes(const Workbench& now) {
+bool cuts_strokes(const FrameState& now) {
     return !project::is_cut_by_tip({now.plot.file(), now.plot.settings()});
 }
 
-void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void source_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (project::is_picture_file(now.plot.file())) {
         const std::shared_ptr<const plan::PlotResult> made = now.plot.latest();
         picture_fields(ui, ask, now.plot.settings(), made.get());
@@ -399,7 +399,7 @@ void source_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void stroke_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const PlotSettings& set = now.plot.settings();
     const plot::StrokePlan& plan = set.strokes;
     const widgets::Permission shaping = unless_path(
@@ -456,7 +456,7 @@ void stroke_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void work_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("work", "Work");
     if (!section) {
         return;
@@ -490,7 +490,7 @@ void work_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     name_choice(ui, ask, "post", "Controller", posts, set.post, &PlotSettings::post);
 }
 
-void light_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void light_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     numbers(ui, ask, now.plot.settings(), {"half_light_mm"});
 }
 

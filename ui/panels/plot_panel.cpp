@@ -108,7 +108,7 @@ std::string sources_of(const plot::CuttingValues& values) {
 }
 
 /// In one line, for the levels below want to be seen, too.
-std::string axis_words(const Workbench& now) {
+std::string axis_words(const FrameState& now) {
     const auto machine = now.machine();
     const auto moment = now.moment();
     if (!machine || !moment || moment->axes.size() != machine->axis_count()) {
@@ -129,7 +129,7 @@ bool in_force(const project::PlotSettings& settings, const plot::CuttingValues& 
 }
 
 /// Above all that scrolls: nothing can be sent.
-void say_what_is_wrong(Ui& ui, const Workbench& now) {
+void say_what_is_wrong(Ui& ui, const FrameState& now) {
     const auto made = now.plot.latest();
     if (made && made->failure) {
         (void)widgets::banner(ui, "failure", {widgets::Severity::warning, to_text(*made->failure), {}});
@@ -138,7 +138,7 @@ void say_what_is_wrong(Ui& ui, const Workbench& now) {
 
 } // namespace
 
-void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PlotPanel::draw_source(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!looked_for_samples_) {
         samples_ = samples_in(now.assets);
         looked_for_samples_ = true;
@@ -161,7 +161,7 @@ void PlotPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) {
         ui, now, ask, catalogue_, "file.open", widgets::Rank::normal, "Open plot or picture \u2026");
 }
 
-void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PlotPanel::draw_layers(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_source(ui, now, ask);
     if (now.plot.file().empty()) {
         ui.note("Or drop a file on the window: " + project::plot_file_kinds_text() + ".");
@@ -194,7 +194,7 @@ void PlotPanel::draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_figures(ui, now);
 }
 
-void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
+void PlotPanel::draw_figures(Ui& ui, const FrameState& now) const {
     const auto made = now.plot.latest();
     if (!made || made->failure) {
         return;
@@ -219,7 +219,7 @@ void PlotPanel::draw_figures(Ui& ui, const Workbench& now) const {
 }
 
 /// Of a table that is played to, or was.
-void PlotPanel::draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) const {
+void PlotPanel::draw_table_place(Ui& ui, const FrameState& now, const Vec3& tip) const {
     const auto section = ui.section("position", "Tool position");
     if (!section) {
         return;
@@ -240,7 +240,7 @@ void PlotPanel::draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) 
 }
 
 /// While the program is played; above what is set, so that it is seen without scrolling.
-void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
+void PlotPanel::draw_progress(Ui& ui, const FrameState& now) const {
     if (const auto tip = now.table_tip()) {
         return draw_table_place(ui, now, *tip);
     }
@@ -269,7 +269,7 @@ void PlotPanel::draw_progress(Ui& ui, const Workbench& now) const {
     }
 }
 
-void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PlotPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.plot.file().empty()) {
         ui.note("No file is open. Select a sample on the left to get started.");
         return;
@@ -282,7 +282,7 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
                                "result of the previous settings.",
                                {}});
         if (ui.button("again", "Compute", {}, {icons::reset, widgets::Rank::normal, -1.0F, {}})) {
-            ask.plot([](actions::PlotBench& bench) { bench.read_again(); });
+            ask.plot([](actions::PlotWorkspace& workspace) { workspace.read_again(); });
         }
     }
     action_button(ui, now, ask, catalogue_, "plot.to_machine", widgets::Rank::primary);
@@ -298,17 +298,17 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
     if (now.plot.latest() && now.plot.latest()->shown_picture) {
         if (const auto on = ui.toggle(
-                "picture", "Show picture", now.session.picture_shown, "Show the picture under the path")) {
+                "picture", "Show picture", now.view_state.picture_shown, "Show the picture under the path")) {
             ask.run("plot.picture");
         }
     }
     if (const auto on = ui.toggle("light",
                                   "Backlit preview",
-                                  now.session.against_light,
+                                  now.view_state.against_light,
                                   "Show the light transmitted through the finished plate")) {
         ask.run("plot.light");
     }
-    if (now.session.against_light) {
+    if (now.view_state.against_light) {
         light_fields(ui, now, ask);
     }
     if (const auto section = ui.section("source", "Source")) {
@@ -320,7 +320,7 @@ void PlotPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     work_fields(ui, now, ask);
 }
 
-void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void PlotPanel::draw_materials(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto& materials = now.plot.materials();
     const double diameter = std::max(now.plot.tool_diameter(), 0.1);
     constexpr std::array<widgets::Column, 6> columns{{{"Material", "", 2.4F, false},
@@ -353,7 +353,7 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
     view.when_empty = "Open a plot or a picture first.";
     if (const auto row = widgets::table(ui, "materials", view)) {
         const auto n = static_cast<std::size_t>(*row);
-        ask.plot([n](actions::PlotBench& bench) { bench.choose_material(n); });
+        ask.plot([n](actions::PlotWorkspace& workspace) { workspace.choose_material(n); });
         ask.edit("Cut " + materials[n].name(),
                  [levels = now.plot.levels(), taken = values[n]](project::Project& draft) {
                      project::use_material(draft.plot.settings, levels, taken);
@@ -368,7 +368,7 @@ void PlotPanel::draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) c
     }
 }
 
-void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
+void PlotPanel::draw_notices(Ui& ui, const FrameState& now) const {
     const auto made = now.plot.latest();
     if (!made) {
         ui.note("No file has been read yet.");
@@ -384,7 +384,7 @@ void PlotPanel::draw_notices(Ui& ui, const Workbench& now) const {
     }
 }
 
-void PlotPanel::draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void PlotPanel::draw_bench(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const std::size_t count = made ? made->notices.size() + (made->failure ? 1 : 0) : 0;
     const std::string notices = count > 0 ? fmt::format("Notices ({})", count) : "Notices";

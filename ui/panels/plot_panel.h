@@ -18,23 +18,23 @@ public:
     explicit PlotPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), table_(catalogue) {}
 
     /// The inspector.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
     /// The pane at the left.
-    void draw_layers(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_layers(Ui& ui, const FrameState& now, ActionQueue& ask);
     /// The lower pane.
-    void draw_bench(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_bench(Ui& ui, const FrameState& now, ActionQueue& ask);
     /// Which of its tabs is shown.
     [[nodiscard]] int bench_tab() const { return static_cast<int>(tab_); }
 
 private:
     enum class Tab { materials, table, notices, picture };
 
-    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_figures(Ui& ui, const Workbench& now) const;
-    void draw_progress(Ui& ui, const Workbench& now) const;
-    void draw_table_place(Ui& ui, const Workbench& now, const Vec3& tip) const;
-    void draw_materials(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_notices(Ui& ui, const Workbench& now) const;
+    void draw_source(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_figures(Ui& ui, const FrameState& now) const;
+    void draw_progress(Ui& ui, const FrameState& now) const;
+    void draw_table_place(Ui& ui, const FrameState& now, const Vec3& tip) const;
+    void draw_materials(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_notices(Ui& ui, const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
     TablePane table_;

@@ -1,6 +1,6 @@
 #include "ui/panels/processor_code.h"
 
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/widgets/listing.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace millwright::panels {
 
 namespace {
 
-using actions::ProcessorBench;
+using actions::ProcessorWorkspace;
 
 constexpr std::array<widgets::Option, 3> tabs{
     {{"instructions", "Instructions"}, {"microprogram", "Microprogram"}, {"program", "Program"}}};
@@ -41,17 +41,17 @@ std::string micro_line(int address, const std::string& text) {
 
 } // namespace
 
-void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProcessorCode::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (const auto chosen = ui.tabs("tabs", static_cast<int>(tab_), tabs)) {
         tab_ = static_cast<Tab>(*chosen);
     }
     std::array<widgets::Option, 2> clicks{
         {{"breakpoint", "Breakpoint", {}, "Click a line to set or clear a breakpoint"},
          {"run_to", "Run to", {}, "Click a line to run until it is executed next"}}};
-    const ProcessorBench& bench = now.processor;
-    if (bench.failure()) {
+    const ProcessorWorkspace& workspace = now.processor;
+    if (workspace.failure()) {
         clicks[1].permission = widgets::Permission::refused("The processor cannot execute this program.");
-    } else if (bench.debugger().state().stop != cordic::Stop::none) {
+    } else if (workspace.debugger().state().stop != cordic::Stop::none) {
         clicks[1].permission =
             widgets::Permission::refused("The processor is halted. Reset it to begin again.");
     }
@@ -74,19 +74,20 @@ void ProcessorCode::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void ProcessorCode::draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
-    const auto& code = bench.code();
+void ProcessorCode::draw_instructions(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const ProcessorWorkspace& workspace = now.processor;
+    const auto& code = workspace.code();
     widgets::ListingView view;
     view.lines = std::ssize(code);
     view.line = [&](std::ptrdiff_t row) {
         const actions::CodeRow& at = code[static_cast<std::size_t>(row)];
         return fmt::format("{:04x} {:>4}  {}", at.address, at.line, at.text);
     };
-    view.current = bench.code_row();
+    view.current = workspace.code_row();
     view.mark = [&](std::ptrdiff_t row) {
         const cordic::CodeAddress address = code[static_cast<std::size_t>(row)].address;
-        return bench.debugger().breakpoints().contains(address) ? ui.colours().danger : widgets::Colour{0};
+        return workspace.debugger().breakpoints().contains(address) ? ui.colours().danger
+                                                                    : widgets::Colour{0};
     };
     view.numbers = false;
     view.coloured = false;
@@ -95,52 +96,52 @@ void ProcessorCode::draw_instructions(Ui& ui, const Workbench& now, ActionQueue&
         act(
             ask,
             click_ == Click::run_to,
-            [address](ProcessorBench& processor) { processor.run_to(address); },
-            [address](ProcessorBench& processor) { processor.toggle_breakpoint(address); });
+            [address](ProcessorWorkspace& processor) { processor.run_to(address); },
+            [address](ProcessorWorkspace& processor) { processor.toggle_breakpoint(address); });
     }
 }
 
-void ProcessorCode::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
+void ProcessorCode::draw_microprogram(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const ProcessorWorkspace& workspace = now.processor;
     widgets::ListingView view;
-    view.lines = std::ssize(bench.microprogram());
+    view.lines = std::ssize(workspace.microprogram());
     view.line = [&](std::ptrdiff_t row) {
-        const int address = bench.micro_address(row);
-        const std::string& text = bench.microprogram()[static_cast<std::size_t>(row)];
+        const int address = workspace.micro_address(row);
+        const std::string& text = workspace.microprogram()[static_cast<std::size_t>(row)];
         return address < 0 ? text : micro_line(address, text);
     };
-    view.current = bench.micro_row();
+    view.current = workspace.micro_row();
     view.mark = [&](std::ptrdiff_t row) {
-        const int address = bench.micro_address(row);
-        const bool marked =
-            address >= 0 && bench.debugger().micro_breakpoints().contains(static_cast<std::uint8_t>(address));
+        const int address = workspace.micro_address(row);
+        const bool marked = address >= 0 && workspace.debugger().micro_breakpoints().contains(
+                                                static_cast<std::uint8_t>(address));
         return marked ? ui.colours().danger : widgets::Colour{0};
     };
     view.numbers = false;
     view.coloured = false;
     const auto row = widgets::listing(ui, "microprogram", view);
-    const int address = row ? bench.micro_address(*row) : -1;
+    const int address = row ? workspace.micro_address(*row) : -1;
     if (address >= 0) {
         const auto at = static_cast<std::uint8_t>(address);
         act(
             ask,
             click_ == Click::run_to,
-            [at](ProcessorBench& processor) { processor.run_to_micro(at); },
-            [at](ProcessorBench& processor) { processor.toggle_micro_breakpoint(at); });
+            [at](ProcessorWorkspace& processor) { processor.run_to_micro(at); },
+            [at](ProcessorWorkspace& processor) { processor.toggle_micro_breakpoint(at); });
     }
 }
 
-void ProcessorCode::draw_program(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
+void ProcessorCode::draw_program(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const ProcessorWorkspace& workspace = now.processor;
     widgets::ListingView view;
-    view.lines = std::ssize(bench.text());
-    view.line = [&](std::ptrdiff_t row) { return bench.text()[static_cast<std::size_t>(row)]; };
-    view.current = bench.debugger().line() - 1;
+    view.lines = std::ssize(workspace.text());
+    view.line = [&](std::ptrdiff_t row) { return workspace.text()[static_cast<std::size_t>(row)]; };
+    view.current = workspace.debugger().line() - 1;
     view.mark = [&](std::ptrdiff_t row) {
-        return bench.has_line_breakpoint(static_cast<int>(row) + 1) ? ui.colours().danger
-                                                                    : widgets::Colour{0};
+        return workspace.has_line_breakpoint(static_cast<int>(row) + 1) ? ui.colours().danger
+                                                                        : widgets::Colour{0};
     };
-    const auto& failure = bench.failure();
+    const auto& failure = workspace.failure();
     view.fault = [&](std::ptrdiff_t row) -> std::optional<widgets::LineFault> {
         if (failure && failure->place.line == row + 1) {
             return widgets::LineFault{failure->place.column, failure->message};
@@ -152,8 +153,8 @@ void ProcessorCode::draw_program(Ui& ui, const Workbench& now, ActionQueue& ask)
         act(
             ask,
             click_ == Click::run_to,
-            [line](ProcessorBench& processor) { processor.run_to_line(line); },
-            [line](ProcessorBench& processor) { processor.toggle_line_breakpoint(line); });
+            [line](ProcessorWorkspace& processor) { processor.run_to_line(line); },
+            [line](ProcessorWorkspace& processor) { processor.toggle_line_breakpoint(line); });
     }
 }
 

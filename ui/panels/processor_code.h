@@ -8,15 +8,15 @@ namespace millwright::panels {
 
 class ProcessorCode final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
     enum class Tab { instructions, microprogram, program };
     enum class Click { breakpoint, run_to };
 
-    void draw_instructions(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_program(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_instructions(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_microprogram(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_program(Ui& ui, const FrameState& now, ActionQueue& ask) const;
 
     Tab tab_ = Tab::instructions;
     Click click_ = Click::breakpoint;

@@ -1,6 +1,6 @@
 #include "ui/panels/processor_diagram.h"
 
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/processor_blocks.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/sketch.h"
@@ -168,7 +168,7 @@ void draw_block(Ui& ui,
 
 } // namespace
 
-void processor_diagram(Ui& ui, const Workbench& now, const Rect& place) {
+void processor_diagram(Ui& ui, const FrameState& now, const Rect& place) {
     const Processor& processor = now.processor.debugger().processor();
     Sketch sketch(ui, "diagram", place, ui.px(diagram_width));
     (void)widgets::canvas(ui, "diagram", sketch.rect(), 0);

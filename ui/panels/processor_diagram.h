@@ -6,6 +6,6 @@
 namespace millwright::panels {
 
 /// Fills `place` of the current pane. What the last clock did is lit.
-void processor_diagram(Ui& ui, const Workbench& now, const widgets::Rect& place);
+void processor_diagram(Ui& ui, const FrameState& now, const widgets::Rect& place);
 
 } // namespace millwright::panels

@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/processor_blocks.h"
 #include "ui/widgets/icons.h"
@@ -23,9 +23,9 @@ namespace millwright::panels {
 
 namespace {
 
-using actions::ProcessorBench;
 using actions::ProcessorChoice;
 using actions::ProcessorSource;
+using actions::ProcessorWorkspace;
 using cordic::NumberKind;
 using cordic::Register;
 
@@ -46,40 +46,40 @@ constexpr std::array<widgets::Option, 4> step_rate_options{
     {{"x20", "20/s"}, {"x200", "200/s"}, {"x5000", "5k/s"}, {"full", "Max."}}};
 
 void choose_processor(ActionQueue& ask, const ProcessorChoice& choice) {
-    ask.processor([choice](ProcessorBench& bench) { bench.set(choice); });
+    ask.processor([choice](ProcessorWorkspace& workspace) { workspace.set(choice); });
 }
 
-std::string halt_text(const ProcessorBench& bench) {
-    if (bench.failure()) {
+std::string halt_text(const ProcessorWorkspace& workspace) {
+    if (workspace.failure()) {
         const bool is_written =
-            bench.choice().source == ProcessorSource::assembler || bench.choice().own_microprogram;
+            workspace.choice().source == ProcessorSource::assembler || workspace.choice().own_microprogram;
         return is_written ? "Has errors" : "Not executable";
     }
-    if (bench.running()) {
+    if (workspace.running()) {
         return "Running";
     }
-    const cordic::ProcessorState& state = bench.debugger().state();
+    const cordic::ProcessorState& state = workspace.debugger().state();
     if (state.stop != cordic::Stop::none) {
         std::string text(cordic::to_text(state.stop));
         text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
         return text;
     }
-    return state.clocks.total == 0                    ? "Reset"
-           : bench.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
-           : bench.halt() == cordic::Halt::limit      ? "Not reached yet: repeat to continue"
-                                                      : "Paused";
+    return state.clocks.total == 0                        ? "Reset"
+           : workspace.halt() == cordic::Halt::breakpoint ? "At a breakpoint"
+           : workspace.halt() == cordic::Halt::limit      ? "Not reached yet: repeat to continue"
+                                                          : "Paused";
 }
 
 /// Of a run that is not at the end of its program.
-std::string followed_text(const ProcessorBench& bench) {
-    const cordic::RunReport& report = bench.report();
+std::string followed_text(const ProcessorWorkspace& workspace) {
+    const cordic::RunReport& report = workspace.report();
     if (report.stop != cordic::Stop::none) {
         return "Stops: " + std::string(cordic::to_text(report.stop)) + ".";
     }
     return fmt::format("{} of {} set-points computed: {}",
                        report.published,
-                       bench.set_points(),
-                       bench.follows() ? "computing the rest." : "the rest takes too long.");
+                       workspace.set_points(),
+                       workspace.follows() ? "computing the rest." : "the rest takes too long.");
 }
 
 std::string late_text(std::int64_t late, std::int64_t stitches) {
@@ -223,8 +223,8 @@ void draw_peculiarities(Ui& ui, const ProcessorChoice& choice, ActionQueue& ask)
 
 } // namespace
 
-void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const {
-    const ProcessorBench& bench = now.processor;
+void ProcessorPanel::draw_steps(Ui& ui, const FrameState& now, ActionQueue& ask) const {
+    const ProcessorWorkspace& workspace = now.processor;
     const auto step = [&](std::string_view id, std::string_view label) {
         action_button(ui, now, ask, catalogue_, id, widgets::Rank::normal, label);
     };
@@ -240,20 +240,20 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
                       now,
                       ask,
                       catalogue_,
-                      bench.running() ? "processor.pause" : "processor.run",
+                      workspace.running() ? "processor.pause" : "processor.run",
                       widgets::Rank::primary,
-                      bench.running() ? "Pause" : "Run");
+                      workspace.running() ? "Pause" : "Run");
     }
-    const cordic::ProcessorState& state = bench.debugger().state();
+    const cordic::ProcessorState& state = workspace.debugger().state();
     {
         const auto width = ui.width(ui.px(300.0F));
-        const auto found = std::ranges::find(step_rates, bench.choice().clocks_a_second);
+        const auto found = std::ranges::find(step_rates, workspace.choice().clocks_per_second);
         const auto index = found == step_rates.end() ? 0 : static_cast<int>(found - step_rates.begin());
         const auto labels = ui.label_share(0.18F);
         if (const auto chosen =
                 ui.segmented("speed", "Clocks", index, step_rate_options, "Clocks per second during Run")) {
-            ProcessorChoice choice = bench.choice();
-            choice.clocks_a_second = step_rates[static_cast<std::size_t>(*chosen)];
+            ProcessorChoice choice = workspace.choice();
+            choice.clocks_per_second = step_rates[static_cast<std::size_t>(*chosen)];
             choose_processor(ask, choice);
         }
     }
@@ -261,21 +261,21 @@ void ProcessorPanel::draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) 
     ui.words(fmt::format("{} clocks", state.clocks.total));
     ui.beside();
     const bool fault =
-        bench.failure() || (state.stop != cordic::Stop::none && state.stop != cordic::Stop::halted);
-    ui.words(halt_text(bench), fault ? widgets::Tone::danger : widgets::Tone::good);
+        workspace.failure() || (state.stop != cordic::Stop::none && state.stop != cordic::Stop::halted);
+    ui.words(halt_text(workspace), fault ? widgets::Tone::danger : widgets::Tone::good);
 }
 
-void ProcessorPanel::draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProcessorPanel::draw_lower(Ui& ui, const FrameState& now, ActionQueue& ask) {
     using actions::LowerTab;
     constexpr std::array<LowerTab, 3> shown{LowerTab::plots, LowerTab::assembler, LowerTab::microprogram};
     const std::array<widgets::Option, 3> options{{{"drawings", "Plots", widgets::icons::plot},
                                                   {"assembler", "Assembler", widgets::icons::file},
                                                   {"microprogram", "Microprogram", widgets::icons::program}}};
-    const LowerTab tab = now.session.lower_tab_now();
+    const LowerTab tab = now.view_state.lower_tab_now();
     const auto at = static_cast<int>(std::ranges::find(shown, tab) - shown.begin());
     if (const auto chosen = ui.tabs("tabs", at, options)) {
-        ask.show([to = shown[static_cast<std::size_t>(*chosen)]](actions::Session& session) {
-            session.lower_tab_now() = to;
+        ask.show([to = shown[static_cast<std::size_t>(*chosen)]](actions::ViewState& view_state) {
+            view_state.lower_tab_now() = to;
         });
     }
     if (tab == LowerTab::assembler) {
@@ -287,7 +287,7 @@ void ProcessorPanel::draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask) 
     plots_.draw(ui, now, ask);
 }
 
-void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProcessorPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_registers(ui, now); // first, so that the smallest window has all of them in sight
     draw_errors(ui, now);
     draw_choice(ui, now, ask);
@@ -296,7 +296,7 @@ void ProcessorPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     pass_.draw(ui, now.processor.choice());
 }
 
-void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProcessorPanel::draw_choice(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("format", "Program and number format");
     if (!section) {
         return;
@@ -313,7 +313,7 @@ void ProcessorPanel::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
-void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProcessorPanel::draw_source(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     std::array<widgets::Option, 5> sources{{{"arc", "Thesis: arc"},
                                             {"path", "Thesis: path"},
                                             {"file", "G-code file"},
@@ -337,7 +337,7 @@ void ProcessorPanel::draw_source(Ui& ui, const Workbench& now, ActionQueue& ask)
     }
 }
 
-void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
+void ProcessorPanel::draw_errors(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("errors", "Errors (whole program)");
     if (!section) {
         return;
@@ -360,7 +360,7 @@ void ProcessorPanel::draw_errors(Ui& ui, const Workbench& now) const {
     }
 }
 
-void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
+void ProcessorPanel::draw_registers(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("registers", "Register file");
     if (!section) {
         return;
@@ -405,7 +405,7 @@ void ProcessorPanel::draw_registers(Ui& ui, const Workbench& now) const {
     }
 }
 
-void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProcessorPanel::draw_times(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("times", "Timing");
     if (!section) {
         return;
@@ -428,12 +428,12 @@ void ProcessorPanel::draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) 
         wanted.needle_rpm = *value;
         choose_processor(ask, wanted);
     }
-    const cordic::SewingRun& sewing = now.processor.sewing();
+    const cordic::StitchTiming& sewing = now.processor.sewing();
     ui.value("stitches_computed", "Computed late", late_text(sewing.late_computations, sewing.stitches));
     ui.value("stitches_moved", "Moved late", late_text(sewing.late_moves, sewing.stitches));
 }
 
-void ProcessorPanel::draw_clocks(Ui& ui, const Workbench& now) const {
+void ProcessorPanel::draw_clocks(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("spent", "Clocks by operation");
     if (!section) {
         return;

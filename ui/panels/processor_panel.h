@@ -15,21 +15,21 @@ public:
     explicit ProcessorPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), texts_(catalogue) {}
 
     /// The inspector.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
     /// The pane at the left.
-    void draw_code(Ui& ui, const Workbench& now, ActionQueue& ask) { code_.draw(ui, now, ask); }
+    void draw_code(Ui& ui, const FrameState& now, ActionQueue& ask) { code_.draw(ui, now, ask); }
     /// Below the diagram.
-    void draw_steps(Ui& ui, const Workbench& now, ActionQueue& ask) const;
+    void draw_steps(Ui& ui, const FrameState& now, ActionQueue& ask) const;
     /// The lower pane: drawings, and the editors.
-    void draw_lower(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_lower(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 private:
-    void draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_source(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_errors(Ui& ui, const Workbench& now) const;
-    void draw_registers(Ui& ui, const Workbench& now) const;
-    void draw_times(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_clocks(Ui& ui, const Workbench& now) const;
+    void draw_choice(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_source(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_errors(Ui& ui, const FrameState& now) const;
+    void draw_registers(Ui& ui, const FrameState& now) const;
+    void draw_times(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_clocks(Ui& ui, const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
     ProcessorCode code_;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/cordic_study/single_pass.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/panel.h"
 
 namespace millwright::panels {

@@ -1,7 +1,7 @@
 #include "ui/panels/processor_path.h"
 
 #include "core/base/counted.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/titled_drawing.h"
 #include "ui/render/color_map.h"
 #include "ui/widgets/canvas.h"
@@ -129,7 +129,7 @@ glm::dvec3 tool_place(const cordic::Processor& processor) {
 
 } // namespace
 
-void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
+void ProcessorPath::draw(Ui& ui, const FrameState& now, const Rect& place) {
     const auto& processor = now.processor.debugger().processor();
     const std::size_t done = processor.published().size();
     const std::span<const cordic::PathDifference> path = now.processor.differences();
@@ -185,7 +185,7 @@ void ProcessorPath::draw(Ui& ui, const Workbench& now, const Rect& place) {
     ui.record("tool", tool ? Rect{tool->x - 4.0F, tool->y - 4.0F, 8.0F, 8.0F} : Rect{});
 }
 
-void draw_difference_map(Ui& ui, const Workbench& now, const Rect& place) {
+void draw_difference_map(Ui& ui, const FrameState& now, const Rect& place) {
     const std::span<const cordic::PathDifference> path = now.processor.differences();
     const double worst = now.processor.report().position_error;
     const std::span<const std::size_t> late = now.processor.report().late;

@@ -10,7 +10,7 @@ namespace millwright::panels {
 class ProcessorPath {
 public:
     /// What is passed already is coloured; a drag orbits, the wheel zooms.
-    void draw(Ui& ui, const Workbench& now, const widgets::Rect& place);
+    void draw(Ui& ui, const FrameState& now, const widgets::Rect& place);
 
 private:
     render::Camera camera_{{.yaw = -1.35, .pitch = 0.75}};
@@ -18,6 +18,6 @@ private:
 };
 
 /// The path in the plane, each set-point coloured by its distance from its exact place; late ones are marked.
-void draw_difference_map(Ui& ui, const Workbench& now, const widgets::Rect& place);
+void draw_difference_map(Ui& ui, const FrameState& now, const widgets::Rect& place);
 
 } // namespace millwright::panels

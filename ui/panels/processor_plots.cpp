@@ -1,7 +1,7 @@
 #include "ui/panels/processor_plots.h"
 
 #include "core/base/units.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/titled_drawing.h"
 #include "ui/widgets/canvas.h"
 #include "ui/widgets/plot.h"
@@ -82,7 +82,7 @@ Angles angles_of(const cordic::Sequence& sequence) {
 
 } // namespace
 
-void ProcessorPlots::draw(Ui& ui, const Workbench& now, ActionQueue&) {
+void ProcessorPlots::draw(Ui& ui, const FrameState& now, ActionQueue&) {
     const Rect all = ui.rest();
     const float gap = ui.px(8.0F);
     const float height = all.h;
@@ -100,7 +100,7 @@ void ProcessorPlots::draw(Ui& ui, const Workbench& now, ActionQueue&) {
     draw_difference_map(ui, now, next(0.34F * left));
 }
 
-void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place) const {
+void ProcessorPlots::draw_vector(Ui& ui, const FrameState& now, const Rect& place) const {
     const cordic::IterationTrace trace = now.processor.debugger().iterations();
     const Rect inside = below_title(ui, place, pass_title(trace));
     (void)widgets::canvas(ui, "vector", inside, 0);
@@ -139,7 +139,7 @@ void ProcessorPlots::draw_vector(Ui& ui, const Workbench& now, const Rect& place
                 widgets::TextFont::small);
 }
 
-void ProcessorPlots::draw_errors(Ui& ui, const Workbench& now, const Rect& place) const {
+void ProcessorPlots::draw_errors(Ui& ui, const FrameState& now, const Rect& place) const {
     const Rect inside = below_title(ui, place, "Remaining angle");
     const cordic::IterationTrace trace = now.processor.debugger().iterations();
     std::vector<double> steps;

@@ -10,11 +10,11 @@ namespace millwright::panels {
 class ProcessorPlots final : public Panel {
 public:
     /// Side by side, as high as the pane.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_vector(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
-    void draw_errors(Ui& ui, const Workbench& now, const widgets::Rect& place) const;
+    void draw_vector(Ui& ui, const FrameState& now, const widgets::Rect& place) const;
+    void draw_errors(Ui& ui, const FrameState& now, const widgets::Rect& place) const;
 
     ProcessorPath path_;
 };

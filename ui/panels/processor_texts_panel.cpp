@@ -1,6 +1,6 @@
 #include "ui/panels/processor_texts_panel.h"
 
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/internal/fields.h"
 
 namespace millwright::panels {
@@ -15,7 +15,7 @@ ProcessorTextsPanel::ProcessorTextsPanel(const actions::Catalogue& catalogue)
       microprogram_(edited_text<&Project::processor, &ProcessorInput::microprogram>("Edit the microprogram",
                                                                                     "microprogram")) {}
 
-void ProcessorTextsPanel::draw_assembler(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProcessorTextsPanel::draw_assembler(Ui& ui, const FrameState& now, ActionQueue& ask) {
     {
         const auto row = ui.row(6);
         const bool executed = now.processor.choice().source == actions::ProcessorSource::assembler;
@@ -37,7 +37,7 @@ void ProcessorTextsPanel::draw_assembler(Ui& ui, const Workbench& now, ActionQue
     assembler_.draw(ui, now, ask, remarks);
 }
 
-void ProcessorTextsPanel::draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProcessorTextsPanel::draw_microprogram(Ui& ui, const FrameState& now, ActionQueue& ask) {
     {
         const auto row = ui.row(5);
         const bool executed = now.processor.choice().own_microprogram;

@@ -11,8 +11,8 @@ public:
     /// `catalogue` must outlive it.
     explicit ProcessorTextsPanel(const actions::Catalogue& catalogue);
 
-    void draw_assembler(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_microprogram(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw_assembler(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_microprogram(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 private:
     const actions::Catalogue& catalogue_;

@@ -84,7 +84,7 @@ std::string limit_text(const motion::Cause& limit, const program::Program& progr
     return {};
 }
 
-void ProgramFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProgramFilePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_file(ui, now, ask);
     draw_faults(ui, now, ask);
     if (const auto section = ui.section("position", "Axis positions at this line")) {
@@ -93,7 +93,7 @@ void ProgramFilePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_modal(ui, now);
 }
 
-void ProgramFilePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProgramFilePanel::draw_file(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("file", "G-code file");
     if (!section) {
         return;
@@ -118,13 +118,13 @@ void ProgramFilePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask)
     action_button(ui, now, ask, catalogue_, "file.close_program", widgets::Rank::normal, "Close");
 }
 
-void ProgramFilePanel::draw_choices(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProgramFilePanel::draw_choices(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (machines_.empty()) {
         machines_ = project::machine_ids(now.assets);
     }
     const plan::ReadingChoice& choice = now.opened->choice;
     const auto read_with = [&](const plan::ReadingChoice& wanted) {
-        ask.show([wanted](actions::Session& session) { session.file.reading = wanted; });
+        ask.show([wanted](actions::ViewState& view_state) { view_state.file.reading = wanted; });
         ask.run("file.read_again");
     };
     std::vector<widgets::Option> options;
@@ -150,7 +150,7 @@ void ProgramFilePanel::draw_choices(Ui& ui, const Workbench& now, ActionQueue& a
     }
 }
 
-void ProgramFilePanel::draw_faults(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProgramFilePanel::draw_faults(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     std::vector<const Diagnostic*> all;
     for (const auto* list : {&now.opened->errors, &now.opened->faults}) {
         for (const Diagnostic& fault : *list) {
@@ -185,7 +185,7 @@ void ProgramFilePanel::draw_faults(Ui& ui, const Workbench& now, ActionQueue& as
     }
 }
 
-void ProgramFilePanel::draw_modal(Ui& ui, const Workbench& now) const {
+void ProgramFilePanel::draw_modal(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("modal", "Active modes (G/M)");
     const auto place = now.file_place();
     if (!section) {

@@ -13,13 +13,13 @@ namespace millwright::panels {
 class ProgramFilePanel final : public Panel {
 public:
     explicit ProgramFilePanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_file(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_choices(Ui& ui, const Workbench& now, ActionQueue& ask);
-    void draw_faults(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_modal(Ui& ui, const Workbench& now) const;
+    void draw_file(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_choices(Ui& ui, const FrameState& now, ActionQueue& ask);
+    void draw_faults(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_modal(Ui& ui, const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
     std::vector<std::string> machines_; ///< ids; looked up once

@@ -11,7 +11,7 @@
 
 namespace millwright::panels {
 
-void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ProgramPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.in_file()) {
         return file_.draw(ui, now, ask);
     }
@@ -23,7 +23,7 @@ void ProgramPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProgramPanel::draw_settings(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("settings", "Feeds and clearances");
     if (!section) {
         return;
@@ -44,7 +44,7 @@ void ProgramPanel::draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask)
                                      [](project::Project& p, project::LinkInput l) { p.program.link = l; });
 }
 
-void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ProgramPanel::draw_summary(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("summary", "Program");
     if (!section) {
         return;
@@ -64,7 +64,7 @@ void ProgramPanel::draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) 
     action_button(ui, now, ask, catalogue_, "file.write_program");
 }
 
-void ProgramPanel::draw_block(Ui& ui, const Workbench& now) const {
+void ProgramPanel::draw_block(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("block", "Current block");
     const auto program = now.program();
     const auto trajectory = now.trajectory();

@@ -10,12 +10,12 @@ namespace millwright::panels {
 class ProgramPanel final : public Panel {
 public:
     explicit ProgramPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue), file_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_settings(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_summary(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_block(Ui& ui, const Workbench& now) const;
+    void draw_settings(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_summary(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_block(Ui& ui, const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
     ProgramFilePanel file_; ///< in its place while a G-code file is open

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/geometry/presets.h"
 #include "core/project/project_file.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/render/camera.h"

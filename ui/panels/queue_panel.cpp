@@ -24,7 +24,7 @@ using widgets::Permission;
 using widgets::Rank;
 
 /// Among those that wait; -1 where `id` does not.
-int waiting_place(const Workbench& now, QueuedJobId id) {
+int waiting_place(const FrameState& now, QueuedJobId id) {
     int place = 0;
     for (const QueuedJob& job : now.queue) {
         if (job.id == id) {
@@ -35,7 +35,7 @@ int waiting_place(const Workbench& now, QueuedJobId id) {
     return -1;
 }
 
-int waiting_count(const Workbench& now) {
+int waiting_count(const FrameState& now) {
     return static_cast<int>(std::ranges::count(now.queue, QueueState::waiting, &QueuedJob::state));
 }
 
@@ -47,12 +47,12 @@ std::string what_happened(const QueuedJob& job) {
 
 } // namespace
 
-const QueuedJob* QueuePanel::chosen(const Workbench& now) const {
+const QueuedJob* QueuePanel::chosen(const FrameState& now) const {
     const auto found = chosen_ ? std::ranges::find(now.queue, *chosen_, &QueuedJob::id) : now.queue.end();
     return found == now.queue.end() ? nullptr : &*found;
 }
 
-void QueuePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void QueuePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto scope = ui.scope("queue");
     if (now.queue_problem) {
         (void)widgets::banner(ui, "problem", {widgets::Severity::warning, to_text(*now.queue_problem), {}});
@@ -87,7 +87,7 @@ void open_button(Ui& ui, ActionQueue& ask, const QueuedJob* job, bool can_start)
 
 } // namespace
 
-void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void QueuePanel::draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const QueuedJob* job = chosen(now);
     const Permission none = Permission::refused("Select a job first.");
     const int place = job != nullptr ? waiting_place(now, job->id) : -1;
@@ -139,7 +139,7 @@ void QueuePanel::draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) co
     action_button(ui, now, ask, catalogue_, "queue.remove_done", Rank::normal, "Clear done");
 }
 
-void QueuePanel::draw_table(Ui& ui, const Workbench& now) {
+void QueuePanel::draw_table(Ui& ui, const FrameState& now) {
     constexpr std::array<widgets::Column, 5> columns{{{"Job", "", 1.6F, false},
                                                       {"State", "", 0.8F, false},
                                                       {"Blocks", "", 0.8F, true},

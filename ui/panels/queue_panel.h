@@ -11,12 +11,12 @@ namespace millwright::panels {
 class QueuePanel final : public Panel {
 public:
     explicit QueuePanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_buttons(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_table(Ui& ui, const Workbench& now);
-    [[nodiscard]] const jobs::QueuedJob* chosen(const Workbench& now) const;
+    void draw_buttons(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_table(Ui& ui, const FrameState& now);
+    [[nodiscard]] const jobs::QueuedJob* chosen(const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
     std::optional<jobs::QueuedJobId> chosen_;

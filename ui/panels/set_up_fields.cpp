@@ -54,8 +54,8 @@ void choose_set_up(Ui& ui,
                    std::span<const widgets::Option> options,
                    void (*set)(SetUpStudySettings&, Value)) {
     if (const auto chosen = ui.choice(id, label, static_cast<int>(now), options)) {
-        ask.show([set, value = static_cast<Value>(*chosen)](actions::Session& session) {
-            set(session.set_up.settings, value);
+        ask.show([set, value = static_cast<Value>(*chosen)](actions::ViewState& view_state) {
+            set(view_state.set_up.settings, value);
         });
     }
 }
@@ -66,12 +66,12 @@ void set_up_number(Ui& ui,
                    const widgets::FieldInfo& info,
                    void (*set)(SetUpStudySettings&, double)) {
     if (const auto value = ui.number(now, info)) {
-        ask.show([set, v = *value](actions::Session& session) { set(session.set_up.settings, v); });
+        ask.show([set, v = *value](actions::ViewState& view_state) { set(view_state.set_up.settings, v); });
     }
 }
 
-void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const SetUpStudySettings& set = now.session.set_up.settings;
+void setting_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const SetUpStudySettings& set = now.view_state.set_up.settings;
     choose_set_up<SetUpGoal>(
         ui, ask, "goal", "Minimise", set.goal, goals, [](SetUpStudySettings& s, SetUpGoal g) { s.goal = g; });
     choose_set_up<SetUpParameter>(
@@ -129,7 +129,7 @@ void setting_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
         [](SetUpStudySettings& s, double v) { s.places = static_cast<int>(std::lround(v)); });
 }
 
-void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
+void map_field(Ui& ui, const FrameState& now, ActionQueue& ask, const plan::SetUpResult& found) {
     const toolpath::SetUpMap& map = found.study->map;
     const viewport::SetUpMapView labelled(
         map, found.settings.goal, found.study->search.best.place, now.set_up_place());
@@ -140,14 +140,14 @@ void map_field(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUp
         ask.show([clicked = *clicked,
                   map_across = map.across,
                   map_up = map.up,
-                  best = found.study->search.best.place](actions::Session& session) {
+                  best = found.study->search.best.place](actions::ViewState& view_state) {
             toolpath::SetUpPlace place = best;
             const auto of_people = [](SetUpParameter parameter, double value) {
                 return parameter == SetUpParameter::turn ? from_degrees(value) : value;
             };
             place[static_cast<Eigen::Index>(map_across)] = of_people(map_across, clicked.x);
             place[static_cast<Eigen::Index>(map_up)] = of_people(map_up, clicked.y);
-            session.set_up.place = place;
+            view_state.set_up.place = place;
         });
     }
 }
@@ -161,11 +161,11 @@ std::string axis_text(const std::optional<double>& axis_max) {
 }
 
 /// That the best place lies at the edge of what was searched, as long as that can be told.
-std::string edge_text(const Workbench& now, const plan::SetUpResult& found) {
-    if (!now.plan || !now.plan->plan.workpiece || !plan::same_but_for_place(found.project, now.project)) {
+std::string edge_text(const FrameState& now, const plan::SetUpResult& found) {
+    if (!now.plan || !now.plan->plan.cutting_setup || !plan::same_but_for_place(found.project, now.project)) {
         return {};
     }
-    plan::Workpiece then = *now.plan->plan.workpiece;
+    plan::CuttingSetup then = *now.plan->plan.cutting_setup;
     then.machine = then.machine.with_workpiece_offset(toolpath::offset_of(found.now));
     return plan::edge_sentence(
         found.study->search,
@@ -173,7 +173,7 @@ std::string edge_text(const Workbench& now, const plan::SetUpResult& found) {
         {"Search range a, b", "Search range a, b", "Search range c", "Search range turn"});
 }
 
-void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::SetUpResult& found) {
+void result_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const plan::SetUpResult& found) {
     if (found.failure) {
         (void)widgets::banner(
             ui,
@@ -227,7 +227,7 @@ void result_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const plan::S
 
 } // namespace
 
-void set_up_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
+void set_up_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue) {
     const auto section = ui.section("set_up_search", "Best position on table", false);
     if (!section) {
         return;

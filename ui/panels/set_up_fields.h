@@ -6,6 +6,6 @@
 
 namespace millwright::panels {
 
-void set_up_fields(Ui& ui, const Workbench& now, ActionQueue& ask, const actions::Catalogue& catalogue);
+void set_up_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::Catalogue& catalogue);
 
 } // namespace millwright::panels

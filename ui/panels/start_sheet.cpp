@@ -19,7 +19,7 @@ namespace millwright::panels {
 namespace {
 
 using drivers::MachineLimits;
-using jobs::Survey;
+using jobs::ProgramCheck;
 
 constexpr float sheet_width = 560.0F;
 
@@ -44,17 +44,17 @@ std::string travel_text(const MachineLimits::Axis* axis) {
     return "travel unknown";
 }
 
-bool stands_still(const Survey::Range& range, const std::optional<double>& start) {
+bool stands_still(const ProgramCheck::Range& range, const std::optional<double>& start) {
     constexpr double still = 1e-9; // mm or rad
     const double from = start.value_or(range.min);
     return std::abs(range.min - from) < still && std::abs(range.max - from) < still;
 }
 
 void draw_extents(Ui& ui, const actions::StartCheck& check) {
-    for (const program::ProgramAxis& axis : check.wish->survey.axes) {
+    for (const program::ProgramAxis& axis : check.wish->program_check.axes) {
         const auto index = std::ranges::find(gcode::axis_letters, axis.letter) - gcode::axis_letters.begin();
-        const Survey::Range& range = check.survey.ranges[static_cast<std::size_t>(index)];
-        const std::optional<double>& start = check.survey.start[static_cast<std::size_t>(index)];
+        const ProgramCheck::Range& range = check.program_check.ranges[static_cast<std::size_t>(index)];
+        const std::optional<double>& start = check.program_check.start[static_cast<std::size_t>(index)];
         if (range.empty() || stands_still(range, start)) {
             continue;
         }
@@ -72,14 +72,14 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
                  {},
                  "Extents in machine coordinates from the current position, with the active work offset");
     }
-    if (const std::string& modes = check.wish->survey.modes; !modes.empty()) {
+    if (const std::string& modes = check.wish->program_check.modes; !modes.empty()) {
         ui.value("modes",
                  "Modes before start",
                  modes,
                  {},
                  "The modes that the controller reports; the check of the extents begins in them");
     }
-    if (const std::string unread = jobs::unread_text(check.survey); !unread.empty()) {
+    if (const std::string unread = jobs::unread_text(check.program_check); !unread.empty()) {
         (void)widgets::banner(ui,
                               "unread",
                               {widgets::Severity::warning,
@@ -88,13 +88,14 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
     }
 }
 
-void draw_spindle_and_tool(Ui& ui, const Survey& survey, const drivers::DriverStatus& status) {
+void draw_spindle_and_tool(Ui& ui, const ProgramCheck& program_check, const drivers::DriverStatus& status) {
     ui.value("spindle",
              "Spindle",
-             survey.greatest_spindle_rpm > 0.0 ? fmt::format("up to {:.0f} rpm", survey.greatest_spindle_rpm)
-                                               : std::string("no speed programmed"));
+             program_check.greatest_spindle_rpm > 0.0
+                 ? fmt::format("up to {:.0f} rpm", program_check.greatest_spindle_rpm)
+                 : std::string("no speed programmed"));
     std::string tools;
-    for (const int tool : survey.tools) {
+    for (const int tool : program_check.tools) {
         tools += fmt::format("{}T{}", tools.empty() ? "" : ", ", tool);
     }
     tools = tools.empty() ? "no tool called" : tools;
@@ -131,7 +132,7 @@ void draw_answer(Ui& ui, const drivers::CommandAnswer& answer) {
         ui, "answer", {answer.state == State::done ? Severity::good : Severity::danger, text, {}});
 }
 
-std::string axis_values_text(const actions::ControllerView& machine) {
+std::string axis_values_text(const actions::ConnectionView& machine) {
     std::string text;
     const auto& position = machine.status.position;
     for (Eigen::Index n = 0; n < std::min<Eigen::Index>(position.size(), std::ssize(machine.axes)); ++n) {
@@ -143,8 +144,8 @@ std::string axis_values_text(const actions::ControllerView& machine) {
 }
 
 /// What would be started, where, and what is known of it.
-void draw_wish(Ui& ui, const Workbench& now, const actions::StartWish& wish) {
-    const drivers::DriverStatus& status = now.controller.status;
+void draw_wish(Ui& ui, const FrameState& now, const actions::StartWish& wish) {
+    const drivers::DriverStatus& status = now.connection.status;
     const auto labels = ui.label_share(0.2F);
     ui.value("program",
              "Program",
@@ -156,10 +157,10 @@ void draw_wish(Ui& ui, const Workbench& now, const actions::StartWish& wish) {
     ui.value(
         "position",
         "Position",
-        fmt::format("{} ({})", axis_values_text(now.controller), verified ? "verified" : "not verified"));
-    if (now.start_check && now.start_check->wish == now.session.start) {
+        fmt::format("{} ({})", axis_values_text(now.connection), verified ? "verified" : "not verified"));
+    if (now.start_check && now.start_check->wish == now.view_state.start) {
         draw_extents(ui, *now.start_check);
-        draw_spindle_and_tool(ui, now.start_check->survey, status);
+        draw_spindle_and_tool(ui, now.start_check->program_check, status);
     } else {
         ui.note("Checking the program \u2026");
     }
@@ -167,32 +168,32 @@ void draw_wish(Ui& ui, const Workbench& now, const actions::StartWish& wish) {
 
 } // namespace
 
-void StartSheet::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void StartSheet::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto dialog = ui.dialog("start", "Start the job?", ui.px(sheet_width));
     if (!dialog) {
         return;
     }
-    const actions::StartWish& wish = *now.session.start;
-    const drivers::DriverStatus& status = now.controller.status;
+    const actions::StartWish& wish = *now.view_state.start;
+    const drivers::DriverStatus& status = now.connection.status;
     draw_wish(ui, now, wish);
     if (!status.position_doubt.empty()) {
         (void)widgets::banner(
             ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(status.position_doubt), {}});
-        if (!now.controller.can.told_place) {
+        if (!now.connection.can.told_place) {
             action_button(ui, now, ask, catalogue_, "machine.trust_position");
         }
     }
     if (!wish.gouges.empty()) {
         (void)widgets::banner(ui, "gouges", {widgets::Severity::danger, wish.gouges, {}});
     }
-    if (now.start_check && now.start_check->wish == now.session.start) {
+    if (now.start_check && now.start_check->wish == now.view_state.start) {
         if (const std::string& tool = now.start_check->tool; !tool.empty()) {
             (void)widgets::banner(ui, "right_tool", {widgets::Severity::warning, tool, {}});
         }
         draw_check_result(ui, "faults", widgets::Severity::danger, now.start_check->faults);
         draw_check_result(ui, "warnings", widgets::Severity::warning, now.start_check->warnings);
     }
-    if (now.session.start_answer > 0 && status.answer.number == now.session.start_answer) {
+    if (now.view_state.start_answer > 0 && status.answer.number == now.view_state.start_answer) {
         draw_answer(ui, status.answer);
         if (now.start_check && now.start_check->tool_stops > 0) {
             ui.note("The check skips the tool changes (M6), which Millwright performs.");

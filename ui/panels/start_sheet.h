@@ -9,7 +9,7 @@ namespace millwright::panels {
 class StartSheet {
 public:
     explicit StartSheet(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask);
     /// Nothing is asked.
     void close() { enter_was_up_ = false; }
 

@@ -13,11 +13,11 @@ namespace millwright::panels {
 
 namespace {
 
-std::string machine_state(const Workbench& now) {
+std::string machine_state(const FrameState& now) {
     if (const std::string table = table_text(now); !table.empty()) {
-        return now.controller.link == actions::LinkState::none ? table : table + ", " + controller_text(now);
+        return now.connection.link == actions::LinkState::none ? table : table + ", " + controller_text(now);
     }
-    if (now.controller.link == actions::LinkState::none && now.job.running && now.job.report) {
+    if (now.connection.link == actions::LinkState::none && now.job.running && now.job.report) {
         return fmt::format("virtual machine {}", to_text(now.job.report->driver.state));
     }
     return controller_text(now);
@@ -29,8 +29,8 @@ std::string mouse_text(const std::optional<Vec3>& p) {
 }
 
 /// Of the file that is looked at: a plot that makes no program leaves the one before it opened.
-std::string program_name(const Workbench& now) {
-    if (now.session.workspace == actions::Workspace::plot && !now.plot.file().empty()) {
+std::string program_name(const FrameState& now) {
+    if (now.view_state.workspace == actions::Workspace::plot && !now.plot.file().empty()) {
         return ", " + now.plot.file().filename().string();
     }
     return now.opened ? ", " + now.opened->file.filename().string() : "";
@@ -38,7 +38,7 @@ std::string program_name(const Workbench& now) {
 
 } // namespace
 
-void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
+void status_bar(Ui& ui, const FrameState& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse) {
     constexpr float left = 12.0F;
     constexpr float top = 5.0F;
     constexpr float least_work = 380.0F;

@@ -9,6 +9,6 @@
 namespace millwright::panels {
 
 /// `under_mouse`: the surface point under the mouse in workpiece coordinates, mm.
-void status_bar(Ui& ui, const Workbench& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse);
+void status_bar(Ui& ui, const FrameState& now, ActionQueue& ask, const std::optional<Vec3>& under_mouse);
 
 } // namespace millwright::panels

@@ -22,7 +22,7 @@ namespace {
 using project::Project;
 using project::StrategyInput;
 
-void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void scallop_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     for (const auto& setting : project::tool_numbers()) {
         if (setting.id == "scallop_mm") {
             number_fields<project::ToolInput>(
@@ -40,7 +40,7 @@ void scallop_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// The points are chosen for the tip; what a cutter with a width does beside it they cannot help.
-void kept_tolerance(Ui& ui, const Workbench& now) {
+void kept_tolerance(Ui& ui, const FrameState& now) {
     const auto path = now.program_path();
     const std::string why = path ? plan::why_not_kept(now.project, *path) : std::string();
     if (!why.empty()) {
@@ -55,7 +55,7 @@ std::string so_far_note(const plan::Evaluation& evaluation) {
                                           : "";
 }
 
-std::string grid_note(const Workbench& now) {
+std::string grid_note(const FrameState& now) {
     const Project& project = now.project;
     if (plan::follows_nodes(project.toolpath.strategy)) {
         const std::string crossing =
@@ -76,7 +76,7 @@ std::string grid_note(const Workbench& now) {
     }
 }
 
-void strategy_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void strategy_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("strategy", "Strategy");
     if (!section) {
         return;

@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/widgets/notices.h"
@@ -20,7 +20,7 @@ namespace millwright::panels {
 
 namespace {
 
-using actions::Session;
+using actions::ViewState;
 using project::Project;
 using viewport::DragStage;
 using viewport::SurfaceToolKind;
@@ -40,7 +40,7 @@ bool has_corner(const grid::Region& region, int corner) {
 constexpr double largest_share = 1e3; // project::elliptic_numbers() allow no more
 
 /// Paint and outline count for the elliptic grid and the harmonic map alone.
-void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void without_effect(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const project::StrategyInput strategy = now.project.toolpath.strategy;
     const project::GridMethod method = now.project.grid.method;
     if (!plan::follows_nodes(strategy)) {
@@ -77,7 +77,7 @@ void without_effect(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// A stroke of the full share would be lost in the colours, and hardly move a node.
-void faint_paint(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void faint_paint(Ui& ui, const FrameState& now, ActionQueue& ask) {
     constexpr double seen = 0.1; // of the range of the weight
     const project::EllipticInput& input = now.project.grid.elliptic;
     const auto weight = now.plan ? now.plan->plan.weight : nullptr;
@@ -107,20 +107,20 @@ void faint_paint(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const actions::SurfaceToolView& tool = now.session.surface_tool;
+void brush_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     if (const auto chosen = ui.segmented("stroke", "Stroke", tool.erases ? 1 : 0, strokes)) {
-        ask.show([erases = *chosen == 1](Session& session) { session.surface_tool.erases = erases; });
+        ask.show([erases = *chosen == 1](ViewState& view_state) { view_state.surface_tool.erases = erases; });
     }
     const widgets::FieldInfo radius{
         "radius", "Radius", "mm", "Brush radius, measured as a straight distance", 0.1, 1000.0, 10.0, 1};
     if (const auto value = ui.number(tool.radius_mm, radius)) {
-        ask.show([v = *value](Session& session) { session.surface_tool.radius_mm = v; });
+        ask.show([v = *value](ViewState& view_state) { view_state.surface_tool.radius_mm = v; });
     }
     const widgets::FieldInfo strength{
         "strength", "Strength", "", "Fraction of the full value applied per dab", 0.01, 1.0, 0.5, 2};
     if (const auto value = ui.number(tool.strength, strength)) {
-        ask.show([v = *value](Session& session) { session.surface_tool.strength = v; });
+        ask.show([v = *value](ViewState& view_state) { view_state.surface_tool.strength = v; });
     }
     faint_paint(ui, now, ask);
     const auto& painted = now.project.grid.elliptic.painted;
@@ -132,8 +132,8 @@ void brush_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void outline_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    const std::vector<Vec2>& draft = now.session.surface_tool.draft;
+void outline_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const std::vector<Vec2>& draft = now.view_state.surface_tool.draft;
     const grid::Region& region = now.project.grid.elliptic.region;
     if (!draft.empty()) {
         ui.note(fmt::format(
@@ -156,11 +156,11 @@ void outline_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
 
 } // namespace
 
-viewport::SurfaceTool surface_tool_of(const Workbench& now) {
-    if (now.session.workspace != actions::Workspace::grid) {
+viewport::SurfaceTool surface_tool_of(const FrameState& now) {
+    if (now.view_state.workspace != actions::Workspace::grid) {
         return {};
     }
-    const actions::SurfaceToolView& tool = now.session.surface_tool;
+    const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     const bool drawing = tool.kind == SurfaceToolKind::outline && !tool.draft.empty();
     return {tool.kind,
             geometry::PatchId{now.project.surface.machined_patch},
@@ -169,12 +169,12 @@ viewport::SurfaceTool surface_tool_of(const Workbench& now) {
             !drawing};
 }
 
-void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void surface_tool_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("surface_tool", "Brush and outline");
     if (!section) {
         return;
     }
-    const SurfaceToolKind kind = now.session.surface_tool.kind;
+    const SurfaceToolKind kind = now.view_state.surface_tool.kind;
     if (const auto chosen = ui.segmented("tool", "Active tool", static_cast<int>(kind), tools)) {
         constexpr std::array<const char*, 3> ids{"grid.no_tool", "grid.brush", "grid.outline"};
         ask.run(ids[static_cast<std::size_t>(*chosen)]);
@@ -189,7 +189,7 @@ void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQueue& ask) {
+void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQueue& ask) {
     if (painted.stage != DragStage::going_on) {
         ask.end_step();
         if (painted.stage == DragStage::cancelled) {
@@ -197,7 +197,7 @@ void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQue
         }
         return;
     }
-    const actions::SurfaceToolView& tool = now.session.surface_tool;
+    const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     const grid::Brush brush{
         .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
     ask.edit(
@@ -211,16 +211,16 @@ void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQue
 }
 
 void obey(const viewport::AddOutlineCorner& corner, ActionQueue& ask) {
-    ask.show([uv = corner.uv](Session& session) {
-        std::vector<Vec2>& draft = session.surface_tool.draft;
+    ask.show([uv = corner.uv](ViewState& view_state) {
+        std::vector<Vec2>& draft = view_state.surface_tool.draft;
         if (std::ssize(draft) < grid::most_corners) {
             draft.push_back(uv);
         }
     });
 }
 
-void obey(const viewport::CloseOutline&, const Workbench& now, ActionQueue& ask) {
-    const std::vector<Vec2>& draft = now.session.surface_tool.draft;
+void obey(const viewport::CloseOutline&, const FrameState& now, ActionQueue& ask) {
+    const std::vector<Vec2>& draft = now.view_state.surface_tool.draft;
     if (std::ssize(draft) < grid::fewest_corners) {
         return;
     }
@@ -229,19 +229,19 @@ void obey(const viewport::CloseOutline&, const Workbench& now, ActionQueue& ask)
     Project drawn = now.project;
     close(drawn);
     if (faults_of(drawn).empty()) { // else it is told why not, and the corners stay
-        ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+        ask.show([](ViewState& view_state) { view_state.surface_tool.draft.clear(); });
     }
 }
 
 void obey(const viewport::DropOutline&, ActionQueue& ask) {
-    ask.show([](Session& session) { session.surface_tool.draft.clear(); });
+    ask.show([](ViewState& view_state) { view_state.surface_tool.draft.clear(); });
 }
 
-void obey(const viewport::MoveOutlineCorner& moved, const Workbench& now, ActionQueue& ask) {
-    const bool drawing = !now.session.surface_tool.draft.empty();
+void obey(const viewport::MoveOutlineCorner& moved, const FrameState& now, ActionQueue& ask) {
+    const bool drawing = !now.view_state.surface_tool.draft.empty();
     if (drawing && moved.stage == DragStage::going_on) {
-        ask.show([moved](Session& session) {
-            std::vector<Vec2>& draft = session.surface_tool.draft;
+        ask.show([moved](ViewState& view_state) {
+            std::vector<Vec2>& draft = view_state.surface_tool.draft;
             if (moved.corner < static_cast<int>(draft.size())) {
                 draft[static_cast<std::size_t>(moved.corner)] = moved.uv;
             }

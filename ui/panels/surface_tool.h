@@ -7,15 +7,15 @@
 
 namespace millwright::panels {
 
-[[nodiscard]] viewport::SurfaceTool surface_tool_of(const Workbench& now);
+[[nodiscard]] viewport::SurfaceTool surface_tool_of(const FrameState& now);
 
 /// The fields of the tool in hand, and the choice of one.
-void surface_tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+void surface_tool_fields(Ui& ui, const FrameState& now, ActionQueue& ask);
 
-void obey(const viewport::PaintSurface& painted, const Workbench& now, ActionQueue& ask);
+void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQueue& ask);
 void obey(const viewport::AddOutlineCorner& corner, ActionQueue& ask);
-void obey(const viewport::CloseOutline& close, const Workbench& now, ActionQueue& ask);
+void obey(const viewport::CloseOutline& close, const FrameState& now, ActionQueue& ask);
 void obey(const viewport::DropOutline& drop, ActionQueue& ask);
-void obey(const viewport::MoveOutlineCorner& moved, const Workbench& now, ActionQueue& ask);
+void obey(const viewport::MoveOutlineCorner& moved, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

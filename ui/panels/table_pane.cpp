@@ -38,10 +38,10 @@ constexpr std::array<widgets::Option, 4> roundings{{{"down", "Round down", {}, {
                                                     {"exact", "Exact, shorter last step", {}, {}}}};
 
 void change_table_choice(ActionQueue& ask, std::function<void(TableChoice&)> what) {
-    ask.plot([what = std::move(what)](actions::PlotBench& bench) {
-        TableChoice choice = bench.table_choice();
+    ask.plot([what = std::move(what)](actions::PlotWorkspace& workspace) {
+        TableChoice choice = workspace.table_choice();
         what(choice);
-        bench.set_table(choice);
+        workspace.set_table(choice);
     });
 }
 
@@ -233,7 +233,7 @@ void line_kept_clear(Ui& ui, std::string_view id, std::string_view text, widgets
 }
 
 /// Nobody tells where the table stands when it begins.
-void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
+void start_line_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
         const auto labels = ui.label_share(0.3F);
         ui.value("begins",
@@ -248,7 +248,7 @@ void begin_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
 
 } // namespace
 
-std::string table_text(const Workbench& now) {
+std::string table_text(const FrameState& now) {
     const actions::TableView table = now.plot.table().view();
     if (!table.playing) {
         return {};
@@ -260,12 +260,12 @@ std::string table_text(const Workbench& now) {
 }
 
 /// Nothing where nothing is sent.
-std::optional<Vec3> TablePane::place_of_begin(const Workbench& now) {
+std::optional<Vec3> TablePane::place_of_begin(const FrameState& now) {
     const bool begins = !now.plot.table_choice().port.empty() && !now.plot.table().view().playing;
     return begins ? now.plot.table_start() : std::nullopt;
 }
 
-void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void TablePane::draw_choice(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const TableChoice& choice = now.plot.table_choice();
     if (const auto port = ui.text_field(
             "port",
@@ -302,7 +302,7 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
         change_table_choice(ask, [speed = *speed](TableChoice& c) { c.speed = speed; });
     }
     if (const auto begins = place_of_begin(now)) {
-        begin_fields(ui, choice, *begins);
+        start_line_fields(ui, choice, *begins);
     }
     if (!has_points) {
         point_fields(ui, points, ask);
@@ -311,7 +311,7 @@ void TablePane::draw_choice(Ui& ui, const Workbench& now, ActionQueue& ask) cons
     record_fields(ui, choice.record, ask);
 }
 
-void TablePane::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void TablePane::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     {
         const bool held = now.plot.table().view().status.state == PlayState::holding;
         const auto line = ui.row(3);

@@ -60,7 +60,10 @@ void TextEditor::draw_find_button(Ui& ui) {
     }
 }
 
-void TextEditor::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const std::vector<Diagnostic>& faults) {
+void TextEditor::draw(Ui& ui,
+                      const FrameState& now,
+                      ActionQueue& ask,
+                      const std::vector<Diagnostic>& faults) {
     follow(now, ask);
     if (finds_) {
         draw_find(ui, ask);
@@ -69,17 +72,17 @@ void TextEditor::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const std:
 }
 
 /// What was found is no longer there in another text.
-void TextEditor::follow(const Workbench& now, ActionQueue& ask) {
+void TextEditor::follow(const FrameState& now, ActionQueue& ask) {
     const std::string& text = edited_.shown(now.project);
     if (text != text_) {
         text_ = text;
         found_.reset();
         caret_ = std::min(caret_, text_.size());
     }
-    const actions::FileView& file = now.session.file;
+    const actions::FileView& file = now.view_state.file;
     if (file.find_wanted) {
         finds_ = calls_ = true;
-        ask.show([](actions::Session& session) { session.file.find_wanted = false; });
+        ask.show([](actions::ViewState& view_state) { view_state.file.find_wanted = false; });
     }
     if (file.find_next != 0) {
         if (wanted_.empty()) {
@@ -87,7 +90,7 @@ void TextEditor::follow(const Workbench& now, ActionQueue& ask) {
         } else {
             go_on(file.find_next);
         }
-        ask.show([](actions::Session& session) { session.file.find_next = 0; });
+        ask.show([](actions::ViewState& view_state) { view_state.file.find_next = 0; });
     }
 }
 
@@ -172,7 +175,7 @@ std::string TextEditor::count_text() const {
 }
 
 void TextEditor::draw_area(Ui& ui,
-                           const Workbench& now,
+                           const FrameState& now,
                            ActionQueue& ask,
                            const std::vector<Diagnostic>& faults) {
     widgets::TextAreaView view;

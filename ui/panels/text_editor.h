@@ -38,13 +38,13 @@ public:
     /// Opens and closes the row that finds.
     void draw_find_button(Ui& ui);
     /// `faults`: by line.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask, const std::vector<Diagnostic>& faults);
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask, const std::vector<Diagnostic>& faults);
 
 private:
-    void follow(const Workbench& now, ActionQueue& ask);
+    void follow(const FrameState& now, ActionQueue& ask);
     void draw_find(Ui& ui, ActionQueue& ask);
     void draw_find_buttons(Ui& ui, ActionQueue& ask);
-    void draw_area(Ui& ui, const Workbench& now, ActionQueue& ask, const std::vector<Diagnostic>& faults);
+    void draw_area(Ui& ui, const FrameState& now, ActionQueue& ask, const std::vector<Diagnostic>& faults);
     void go_on(int direction);
     void replace_one(ActionQueue& ask);
     void replace_all(ActionQueue& ask);

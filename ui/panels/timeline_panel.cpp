@@ -29,7 +29,7 @@ std::string_view action_of(TimelineAsk::Kind kind) {
     }
 }
 
-void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
+void obey(const TimelineAsk& asked, const FrameState& now, ActionQueue& ask) {
     if (asked.kind == TimelineAsk::Kind::scrub) {
         const auto planned = now.trajectory();
         go_to_time(ask,
@@ -37,7 +37,8 @@ void obey(const TimelineAsk& asked, const Workbench& now, ActionQueue& ask) {
                        ? asked.value * now.duration()
                        : planned->time_at_part_length(asked.value * planned->part_length()));
     } else if (asked.kind == TimelineAsk::Kind::speed) {
-        ask.show([speed = asked.value](actions::Session& session) { session.playback.speed = speed; });
+        ask.show(
+            [speed = asked.value](actions::ViewState& view_state) { view_state.playback.speed = speed; });
     } else {
         ask.run(std::string(action_of(asked.kind)));
     }
@@ -56,7 +57,7 @@ void draw_job(Ui& ui, const jobs::JobReport& job) {
 }
 
 /// What is played to a table, point by point.
-void draw_table_play(Ui& ui, const Workbench& now) {
+void draw_table_play(Ui& ui, const FrameState& now) {
     const actions::TableView table = now.plot.table().view();
     widgets::TimelineView view;
     view.permission = widgets::Permission::refused("The view follows the table.");
@@ -71,7 +72,7 @@ void draw_table_play(Ui& ui, const Workbench& now) {
 
 } // namespace
 
-void TimelinePanel::refresh(const Workbench& now) {
+void TimelinePanel::refresh(const FrameState& now) {
     const auto trajectory = now.trajectory();
     const auto program = now.program();
     const auto evaluation = now.program_path();
@@ -86,7 +87,7 @@ void TimelinePanel::refresh(const Workbench& now) {
 }
 
 /// Over time: a file may have no plan, and then no way of the tip to count by.
-void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void TimelinePanel::draw_file(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const MotionSeries& motion = motion_.series(now);
     const std::array<widgets::TimelineSeries, 1> series{{{"feed", "mm/min", motion.feed, 0}}};
     widgets::TimelineView view;
@@ -101,8 +102,8 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.total_s = now.duration();
     view.time_s = now.time();
     view.fraction = view.total_s > 0.0 ? view.time_s / view.total_s : 0.0;
-    view.is_playing = now.session.playback.playing;
-    view.speed = now.session.playback.speed;
+    view.is_playing = now.view_state.playback.playing;
+    view.speed = now.view_state.playback.speed;
     view.block = place->line;
     view.blocks = now.opened->text->lines.count();
     view.what = "Line";
@@ -115,7 +116,7 @@ void TimelinePanel::draw_file(Ui& ui, const Workbench& now, ActionQueue& ask) {
 }
 
 /// Of a plot whose program is not there.
-void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
+void TimelinePanel::draw_nothing(Ui& ui, const FrameState& now) const {
     const auto made = now.plot.latest();
     const bool long_one = made && made->path && made->path->size() > plan::most_points_at_once;
     widgets::TimelineView view;
@@ -127,14 +128,14 @@ void TimelinePanel::draw_nothing(Ui& ui, const Workbench& now) const {
     (void)widgets::timeline(ui, "timeline", view);
 }
 
-void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void TimelinePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.table_tip() && now.plot.table().playing()) {
         return draw_table_play(ui, now);
     }
     if (now.in_file()) {
         return draw_file(ui, now, ask);
     }
-    const bool plot = now.session.workspace == actions::Workspace::plot;
+    const bool plot = now.view_state.workspace == actions::Workspace::plot;
     if (plot && now.job.running && now.job.report) {
         return draw_job(ui, *now.job.report);
     }
@@ -154,8 +155,8 @@ void TimelinePanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     view.series = series;
     const double way = trajectory_->part_length();
     view.fraction = way > 0.0 ? trajectory_->part_length_at(now.time()) / way : 0.0;
-    view.is_playing = now.session.playback.playing;
-    view.speed = now.session.playback.speed;
+    view.is_playing = now.view_state.playback.playing;
+    view.speed = now.view_state.playback.speed;
     view.block = now.block() + 1;
     view.blocks = trajectory_->block_count();
     view.time_s = now.time();

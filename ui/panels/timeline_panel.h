@@ -11,12 +11,12 @@ namespace millwright::panels {
 
 class TimelinePanel final : public Panel {
 public:
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void refresh(const Workbench& now);
-    void draw_nothing(Ui& ui, const Workbench& now) const;
-    void draw_file(Ui& ui, const Workbench& now, ActionQueue& ask);
+    void refresh(const FrameState& now);
+    void draw_nothing(Ui& ui, const FrameState& now) const;
+    void draw_file(Ui& ui, const FrameState& now, ActionQueue& ask);
 
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< that `series_` was made of
     TrajectorySeries series_;

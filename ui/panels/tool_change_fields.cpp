@@ -2,7 +2,7 @@
 
 #include "ui/actions/tool_changes.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/internal/manual_fields.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -27,9 +27,9 @@ constexpr std::array<widgets::Option, 4> way_options{
       "Pause for the tool change, then measure the tool length at a fixed sensor"},
      {"macro", "Run macro file", {}, "Pause for the tool change, then send the lines of a file"}}};
 
-void set(ActionQueue& ask, const Workbench& now, ToolChangeSettings settings) {
-    ask.show([address = now.controller.choice.address, settings = std::move(settings)](
-                 actions::Session& session) { session.hand.tool_changes[address] = settings; });
+void set(ActionQueue& ask, const FrameState& now, ToolChangeSettings settings) {
+    ask.show([address = now.connection.choice.address, settings = std::move(settings)](
+                 actions::ViewState& view_state) { view_state.manual.tool_changes[address] = settings; });
 }
 
 struct SensorField {
@@ -63,7 +63,7 @@ constexpr std::array<SensorField, 5> sensor_fields{
       1.0,
       5000.0}}};
 
-void draw_sensor(Ui& ui, const Workbench& now, ActionQueue& ask, const ToolChangeSettings& settings) {
+void draw_sensor(Ui& ui, const FrameState& now, ActionQueue& ask, const ToolChangeSettings& settings) {
     for (const SensorField& field : sensor_fields) {
         const widgets::FieldInfo info{field.id,
                                       field.label,
@@ -83,16 +83,16 @@ void draw_sensor(Ui& ui, const Workbench& now, ActionQueue& ask, const ToolChang
 
 } // namespace
 
-void tool_change_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
-    if (!now.controller.connected() || !now.controller.can.tool_changes) {
+void tool_change_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    if (!now.connection.connected() || !now.connection.can.tool_changes) {
         return;
     }
     const auto section = ui.section("tool_changes", "Tool changes");
     if (!section) {
         return;
     }
-    const ToolChangeSettings settings = actions::tool_change_settings(now.session.hand, now.controller);
-    const bool here = actions::tool_change_plan(now.session.hand, now.controller).has_value();
+    const ToolChangeSettings settings = actions::tool_change_settings(now.view_state.manual, now.connection);
+    const bool here = actions::tool_change_plan(now.view_state.manual, now.connection).has_value();
     const int way = here ? 1 + static_cast<int>(settings.plan.way) : 0;
     if (const auto chosen = ui.choice("way", "At M6", way, way_options, "Action at a tool change")) {
         ToolChangeSettings changed = settings;
@@ -140,8 +140,8 @@ std::string_view what_a_person_can_do(const drivers::ToolChangeStatus& change) {
 
 } // namespace
 
-bool tool_change_banner(Ui& ui, const Workbench& now) {
-    const drivers::DriverStatus& status = now.controller.status;
+bool tool_change_banner(Ui& ui, const FrameState& now) {
+    const drivers::DriverStatus& status = now.connection.status;
     if (!now.job.running || !actions::waits_for_tool(status)) {
         return false;
     }

@@ -67,7 +67,7 @@ void bites_text(Ui& ui, const Project& project, const plan::CutStudy& cut) {
 }
 
 /// Before and after, where the program's angles are not the nearest ones.
-void gain_text(Ui& ui, const Workbench& now) {
+void gain_text(Ui& ui, const FrameState& now) {
     const plan::Plan& plan = now.plan->plan;
     const auto after = plan.program_path(now.plan->project);
     if (plan.unsequenced_failure) {
@@ -110,7 +110,7 @@ void gain_text(Ui& ui, const Workbench& now) {
 }
 
 /// Where the points that are added make the uniform grid the better one.
-void sequencing_warning(Ui& ui, const Workbench& now) {
+void sequencing_warning(Ui& ui, const FrameState& now) {
     const std::string remark = plan::sequencing_remark(now.plan->project, now.plan->plan);
     if (!remark.empty()) {
         (void)widgets::banner(ui, "uniform_better", {widgets::Severity::warning, as_sentence(remark), {}});
@@ -138,7 +138,7 @@ void highest_left(Ui& ui, const plan::Plan& plan) {
 
 } // namespace
 
-void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void tool_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("tool", "Tool");
     if (!section) {
         return;
@@ -160,7 +160,7 @@ void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
     }
 }
 
-void cut_fields(Ui& ui, const Workbench& now) {
+void cut_fields(Ui& ui, const FrameState& now) {
     if (now.project.tool.cutter == CutterKind::point) {
         return;
     }
@@ -197,7 +197,7 @@ void cut_fields(Ui& ui, const Workbench& now) {
     bites_text(ui, now.plan->project, cut);
 }
 
-void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void sequencing_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto section = ui.section("sequencing", "Rotary axes along the path");
     if (!section) {
         return;
@@ -217,9 +217,9 @@ void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
             return p.sequencing;
         });
     const auto shown = now.shown();
-    if (shown && now.plan->plan.workpiece) {
+    if (shown && now.plan->plan.cutting_setup) {
         const double step = toolpath::largest_rotary_step(
-            now.plan->plan.workpiece->machine, shown->toolpath, shown->axes, toolpath::MoveKind::track);
+            now.plan->plan.cutting_setup->machine, shown->toolpath, shown->axes, toolpath::MoveKind::track);
         ui.value("points",
                  "Points",
                  fmt::format("{}", shown->toolpath.points.size()),

@@ -6,11 +6,11 @@
 
 namespace millwright::panels {
 
-void tool_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+void tool_fields(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 /// What the tool leaves on the surface and cuts too deep; nothing for a point.
-void cut_fields(Ui& ui, const Workbench& now);
+void cut_fields(Ui& ui, const FrameState& now);
 
-void sequencing_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+void sequencing_fields(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

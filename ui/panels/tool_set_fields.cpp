@@ -12,14 +12,14 @@ namespace millwright::panels {
 namespace {
 
 /// As far as the machine is known, and if it is the thesis's.
-std::optional<project::ToolSetInput> tool_set_now(const Workbench& now) {
+std::optional<project::ToolSetInput> tool_set_now(const FrameState& now) {
     if (now.project.machine.tool_set) {
         return now.project.machine.tool_set;
     }
-    if (!now.plan || !now.plan->plan.workpiece) {
+    if (!now.plan || !now.plan->plan.cutting_setup) {
         return std::nullopt;
     }
-    const kinematics::MachineModel& machine = now.plan->plan.workpiece->machine;
+    const kinematics::MachineModel& machine = now.plan->plan.cutting_setup->machine;
     const auto constants = kinematics::rotary_tilt_of(machine);
     if (!constants) {
         return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<project::ToolSetInput> tool_set_now(const Workbench& now) {
 
 } // namespace
 
-void tool_set_fields(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void tool_set_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const std::optional<project::ToolSetInput> set = tool_set_now(now);
     if (!set) {
         return;

@@ -6,6 +6,6 @@
 namespace millwright::panels {
 
 /// e, OF, AB, B4, and back to those of the machine file; nothing on a machine that is built otherwise.
-void tool_set_fields(Ui& ui, const Workbench& now, ActionQueue& ask);
+void tool_set_fields(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

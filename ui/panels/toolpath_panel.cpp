@@ -4,7 +4,7 @@
 #include "core/plan/strategy_path.h"
 #include "core/project/assets.h"
 #include "ui/actions/shown_grid.h"
-#include "ui/panels/beside.h"
+#include "ui/panels/compare_view.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/set_up_fields.h"
@@ -25,7 +25,7 @@ namespace {
 using project::GridMethod;
 using project::Project;
 
-std::vector<std::string> machine_choices(const Workbench& now) {
+std::vector<std::string> machine_choices(const FrameState& now) {
     std::vector<std::string> ids = project::machine_ids(now.assets);
     if (std::find(ids.begin(), ids.end(), now.project.machine.file) == ids.end()) {
         ids.push_back(now.project.machine.file);
@@ -33,16 +33,16 @@ std::vector<std::string> machine_choices(const Workbench& now) {
     return ids;
 }
 
-Vec3 workpiece_offset(const Workbench& now) {
+Vec3 workpiece_offset(const FrameState& now) {
     if (now.project.machine.workpiece_offset) {
         return *now.project.machine.workpiece_offset;
     }
-    const bool known = now.plan && now.plan->plan.workpiece;
-    return known ? now.plan->plan.workpiece->machine.description().workpiece_offset : Vec3(Vec3::Zero());
+    const bool known = now.plan && now.plan->plan.cutting_setup;
+    return known ? now.plan->plan.cutting_setup->machine.description().workpiece_offset : Vec3(Vec3::Zero());
 }
 
 /// A grid that was made, or the path of the program where that is none of theirs.
-void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void shown_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     std::vector<widgets::Option> options;
     std::vector<GridMethod> made;
     int index = 0;
@@ -69,7 +69,7 @@ void shown_field(Ui& ui, const Workbench& now, ActionQueue& ask) {
             return;
         }
         const GridMethod method = made[static_cast<std::size_t>(*chosen)];
-        ask.show([method](actions::Session& session) { show_grid(session, method); });
+        ask.show([method](actions::ViewState& view_state) { show_grid(view_state, method); });
     }
 }
 
@@ -135,7 +135,7 @@ void error_values(Ui& ui,
 
 } // namespace
 
-void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
+void ToolpathPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_error(ui, now, ask);
     strategy_fields(ui, now, ask);
     tool_fields(ui, now, ask);
@@ -146,13 +146,13 @@ void ToolpathPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask) {
     draw_singular(ui, now);
 }
 
-void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ToolpathPanel::draw_error(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("error", "Path error");
     if (!section) {
         return;
     }
     shown_field(ui, now, ask);
-    beside_fields(ui, now, ask, catalogue_);
+    compare_fields(ui, now, ask, catalogue_);
     const auto shown = now.shown();
     const auto start = now.evaluation(GridMethod::uniform);
     if (!shown || !start) { // after a change the shown one comes first
@@ -168,12 +168,12 @@ void ToolpathPanel::draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) c
                                    1e3,
                                    0.5,
                                    3};
-    if (const auto value = ui.number(now.session.error.limit.value_or(limit.default_value), limit)) {
-        ask.show([v = *value](actions::Session& session) { session.error.limit = v; });
+    if (const auto value = ui.number(now.view_state.error.limit.value_or(limit.default_value), limit)) {
+        ask.show([v = *value](actions::ViewState& view_state) { view_state.error.limit = v; });
     }
 }
 
-void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) const {
+void ToolpathPanel::draw_setup(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const auto section = ui.section("setup", "Machine and set-up");
     if (!section) {
         return;
@@ -219,7 +219,7 @@ void ToolpathPanel::draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) c
     }
 }
 
-void ToolpathPanel::draw_singular(Ui& ui, const Workbench& now) const {
+void ToolpathPanel::draw_singular(Ui& ui, const FrameState& now) const {
     const auto section = ui.section("singular", "Singular points");
     if (!section) {
         return;

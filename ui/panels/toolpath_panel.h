@@ -9,12 +9,12 @@ namespace millwright::panels {
 class ToolpathPanel final : public Panel {
 public:
     explicit ToolpathPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask) override;
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask) override;
 
 private:
-    void draw_error(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_setup(Ui& ui, const Workbench& now, ActionQueue& ask) const;
-    void draw_singular(Ui& ui, const Workbench& now) const;
+    void draw_error(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_setup(Ui& ui, const FrameState& now, ActionQueue& ask) const;
+    void draw_singular(Ui& ui, const FrameState& now) const;
 
     const actions::Catalogue& catalogue_;
 };

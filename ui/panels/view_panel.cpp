@@ -1,12 +1,12 @@
 #include "ui/panels/view_panel.h"
 
 #include "core/plan/plan.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "core/project/surface.h"
-#include "ui/actions/arm_bench.h"
-#include "ui/actions/import_bench.h"
-#include "ui/actions/workshop.h"
-#include "ui/panels/beside.h"
+#include "ui/actions/app_controller.h"
+#include "ui/actions/arm_workspace.h"
+#include "ui/actions/pending_import.h"
+#include "ui/panels/compare_view.h"
 #include "ui/panels/layer_list.h"
 #include "ui/panels/surface_tool.h"
 #include "ui/viewport/picture.h"
@@ -41,19 +41,19 @@ void move_dragged_points(const viewport::MoveControlPoints& move, ActionQueue& a
     }
 }
 
-void go_to_path_place(const gcode::PathPlace& place, const Workbench& now, ActionQueue& ask) {
+void go_to_path_place(const gcode::PathPlace& place, const FrameState& now, ActionQueue& ask) {
     if (!now.in_file() || !now.opened->execution || now.follows_job()) {
         return;
     }
     const gcode::Step step = now.opened->path.point(place.point).step();
-    ask.show([step, time = actions::time_of(*now.opened, place)](actions::Session& session) {
-        session.playback.playing = false;
-        session.playback.time = time;
-        session.file.step = step;
+    ask.show([step, time = actions::time_of(*now.opened, place)](actions::ViewState& view_state) {
+        view_state.playback.playing = false;
+        view_state.playback.time = time;
+        view_state.file.step = step;
     });
 }
 
-void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQueue& ask) {
+void go_to_move(const viewport::GoToMove& wanted, const FrameState& now, ActionQueue& ask) {
     const auto program = now.program();
     const auto trajectory = now.trajectory();
     const bool is_program = now.shown() == now.program_path(); // else its moves are none of the program's
@@ -64,20 +64,20 @@ void go_to_move(const viewport::GoToMove& wanted, const Workbench& now, ActionQu
     const auto block = std::find_if(program->blocks.begin(), program->blocks.end(), ends_there);
     if (block != program->blocks.end()) {
         const auto n = static_cast<int>(block - program->blocks.begin());
-        ask.show([time = trajectory->time_at(n, wanted.fraction)](actions::Session& session) {
-            session.playback.playing = false;
-            session.playback.time = time;
+        ask.show([time = trajectory->time_at(n, wanted.fraction)](actions::ViewState& view_state) {
+            view_state.playback.playing = false;
+            view_state.playback.time = time;
         });
     }
 }
 
 /// A connected arm is where its controller says, whatever is dragged.
 template <class Event, class Move>
-void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&& move) {
+void drag_arm(const FrameState& now, ActionQueue& ask, const Event& event, Move&& move) {
     if (now.arm_connected()) {
         if (event.stage == viewport::DragStage::finished) {
-            ask.show([](actions::Session& session) {
-                actions::tell(session,
+            ask.show([](actions::ViewState& view_state) {
+                actions::tell(view_state,
                               widgets::Severity::info,
                               "The arm was not moved: the view follows the connected arm. Jog it with the "
                               "buttons on the left.");
@@ -88,7 +88,7 @@ void drag_arm(const Workbench& now, ActionQueue& ask, const Event& event, Move&&
     if (event.stage == viewport::DragStage::going_on) {
         ask.arm(std::forward<Move>(move));
     } else if (event.stage == viewport::DragStage::cancelled) {
-        ask.arm([before = event.before](actions::ArmBench& arm) { arm.set_joints(before); });
+        ask.arm([before = event.before](actions::ArmWorkspace& arm) { arm.set_joints(before); });
     }
 }
 
@@ -103,22 +103,22 @@ void move_part(const viewport::MoveArmPart& move, ActionQueue& ask) {
 }
 
 /// The results are of the surface that the project has now: after another project was opened, not at once.
-bool shows_the_project(const Workbench& now) {
+bool shows_the_project(const FrameState& now) {
     return now.plan && now.plan->plan.surface &&
            *now.plan->plan.surface == project::surface_of(now.project.surface);
 }
 
-/// While the file is on the bench; afterwards its faces only stand there.
-void choose_face(int number, const Workbench& now, ActionQueue& ask) {
+/// While the import is pending; afterwards its faces only stand there.
+void choose_face(int number, const FrameState& now, ActionQueue& ask) {
     if (shows_import(now)) {
         project::ImportChoice choice = now.import.choice();
         choice.face = number;
-        ask.files([choice](actions::Workshop& workshop) { workshop.import().choose(choice); });
+        ask.files([choice](actions::AppController& app) { app.import().choose(choice); });
     }
 }
 
 /// What would become of the surface, in place of it.
-void show_import(const Workbench& now, viewport::Scene& scene) {
+void show_import(const FrameState& now, viewport::Scene& scene) {
     const auto found = now.import.latest();
     scene.layers.control_net = false; // nothing of it can be changed yet
     scene.selected.clear();
@@ -129,16 +129,16 @@ void show_import(const Workbench& now, viewport::Scene& scene) {
 } // namespace
 
 /// Also in the Machine workspace, where it is what is connected.
-bool shows_arm(const Workbench& now) {
-    return now.session.workspace == Workspace::arm ||
-           (now.session.workspace == Workspace::machine && now.arm_connected());
+bool shows_arm(const FrameState& now) {
+    return now.view_state.workspace == Workspace::arm ||
+           (now.view_state.workspace == Workspace::machine && now.arm_connected());
 }
 
-bool shows_import(const Workbench& now) {
-    return now.session.workspace == Workspace::design && now.import.latest() != nullptr;
+bool shows_import(const FrameState& now) {
+    return now.view_state.workspace == Workspace::design && now.import.latest() != nullptr;
 }
 
-void show_planned(const Workbench& now, viewport::Scene& scene) {
+void show_planned(const FrameState& now, viewport::Scene& scene) {
     const plan::Plan& plan = now.plan->plan;
     viewport::show_plan(scene, plan);
     scene.shown = now.shown();
@@ -150,7 +150,7 @@ void show_planned(const Workbench& now, viewport::Scene& scene) {
     }
     scene.start = now.evaluation(project::GridMethod::uniform);
     scene.surface_tool = surface_tool_of(now);
-    if (now.watched && now.session.workspace == Workspace::grid) {
+    if (now.watched && now.view_state.workspace == Workspace::grid) {
         scene.watched = now.watched->state;
     }
     scene.now = now.moment();
@@ -160,12 +160,12 @@ void show_planned(const Workbench& now, viewport::Scene& scene) {
     }
 }
 
-viewport::Scene scene_of(const Workbench& now) {
+viewport::Scene scene_of(const FrameState& now) {
     viewport::Scene scene;
-    scene.layers = now.session.layers_now();
-    const bool at_machine = now.session.workspace == Workspace::machine;
+    scene.layers = now.view_state.layers_now();
+    const bool at_machine = now.view_state.workspace == Workspace::machine;
     if (shows_arm(now)) {
-        scene.layers = now.session.layers[static_cast<std::size_t>(Workspace::arm)];
+        scene.layers = now.view_state.layers[static_cast<std::size_t>(Workspace::arm)];
         if (now.arm.loaded()) {
             scene.arm = now.arm.scene();
         }
@@ -174,12 +174,12 @@ viewport::Scene scene_of(const Workbench& now) {
     if (at_machine && now.draws_another_machine()) {
         scene.layers.machine = false;
     }
-    scene.selected = now.session.selected;
-    scene.symmetry = now.session.symmetry;
-    scene.error = now.session.error;
-    scene.against_light = now.session.against_light;
-    scene.picture_shown = now.session.picture_shown;
-    const bool plots = now.session.workspace == Workspace::plot;
+    scene.selected = now.view_state.selected;
+    scene.symmetry = now.view_state.symmetry;
+    scene.error = now.view_state.error;
+    scene.against_light = now.view_state.against_light;
+    scene.picture_shown = now.view_state.picture_shown;
+    const bool plots = now.view_state.workspace == Workspace::plot;
     if (plots && !now.plot.file().empty()) {
         scene.plot = now.plot.latest();
         scene.table_tip = now.table_tip();
@@ -206,17 +206,17 @@ viewport::Scene scene_of(const Workbench& now) {
     return scene;
 }
 
-void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& ask) {
+void obey(const viewport::ViewEvent& event, const FrameState& now, ActionQueue& ask) {
     if (const auto* move = std::get_if<viewport::MoveControlPoints>(&event)) {
         move_dragged_points(*move, ask);
     } else if (const auto* select = std::get_if<viewport::SelectControlPoints>(&event)) {
-        ask.show([points = select->points](actions::Session& session) { session.selected = points; });
+        ask.show([points = select->points](actions::ViewState& view_state) { view_state.selected = points; });
     } else if (const auto* go = std::get_if<viewport::GoToMove>(&event)) {
         go_to_move(*go, now, ask);
     } else if (const auto* tip = std::get_if<viewport::MoveArmTip>(&event)) {
-        drag_arm(now, ask, *tip, [to = tip->tip](actions::ArmBench& arm) { arm.move_tip(to); });
+        drag_arm(now, ask, *tip, [to = tip->tip](actions::ArmWorkspace& arm) { arm.move_tip(to); });
     } else if (const auto* turn = std::get_if<viewport::TurnArmJoint>(&event)) {
-        drag_arm(now, ask, *turn, [n = turn->joint, to = turn->position](actions::ArmBench& arm) {
+        drag_arm(now, ask, *turn, [n = turn->joint, to = turn->position](actions::ArmWorkspace& arm) {
             arm.set_joint(n, to);
         });
     } else if (const auto* part = std::get_if<viewport::MoveArmPart>(&event)) {
@@ -239,19 +239,20 @@ void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& a
 }
 
 /// It is fitted in the workspace that is seen now.
-void ViewPanel::fit(const Workbench& now, ActionQueue& ask) {
+void ViewPanel::fit(const FrameState& now, ActionQueue& ask) {
     view_.fit();
-    ask.show(
-        [where = now.session.workspace](actions::Session& session) { session.fit_wanted_in(where) = false; });
+    ask.show([where = now.view_state.workspace](actions::ViewState& view_state) {
+        view_state.fit_wanted_in(where) = false;
+    });
 }
 
 /// To what is there of the path as soon as there is any, and to all of it unless a person has turned it by
 /// then.
-void ViewPanel::fit_file(const Workbench& now, ActionQueue& ask) {
+void ViewPanel::fit_file(const FrameState& now, ActionQueue& ask) {
     if (now.opened->path.empty() && !now.opened->finished) {
         return;
     }
-    if (now.session.fit_wanted_now()) {
+    if (now.view_state.fit_wanted_now()) {
         fit(now, ask);
         growing_ = !now.opened->finished;
     } else if (growing_ && now.opened->finished) {
@@ -267,14 +268,14 @@ void ViewPanel::look_from(render::StandardView side, ActionQueue& ask) {
                          : side == render::StandardView::oblique ? render::Projection::oblique
                                                                  : render::Projection::orthographic);
     view_.fit();
-    ask.show([](actions::Session& session) { session.side_wanted.reset(); });
+    ask.show([](actions::ViewState& view_state) { view_state.side_wanted.reset(); });
 }
 
 /// From above at first: a drawing is read that way.
-void ViewPanel::fit_plot(const Workbench& now, ActionQueue& ask) {
+void ViewPanel::fit_plot(const FrameState& now, ActionQueue& ask) {
     const auto made = now.plot.latest();
     const bool there = made && made->path && made->input.file == now.plot.file();
-    if (now.session.fit_wanted_now() && there) {
+    if (now.view_state.fit_wanted_now() && there) {
         fit(now, ask);
     }
     if (there) {
@@ -313,44 +314,46 @@ void ViewPanel::fit_set_up(const viewport::Scene& shown) {
     }
 }
 
-void ViewPanel::draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place) {
+void ViewPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask, const widgets::Rect& place) {
     viewport::Scene shown = scene_of(now);
-    shown.colors = now.session.colors;
-    shown.sight = static_cast<int>(now.session.workspace);
+    shown.colors = now.view_state.colors;
+    shown.sight = static_cast<int>(now.view_state.workspace);
     view_.look_at(shown);
-    view_.set_arrangement(now.session.four_views ? viewport::Arrangement::four : viewport::Arrangement::one);
-    if (now.session.side_wanted) {
-        look_from(*now.session.side_wanted, ask);
+    view_.set_arrangement(now.view_state.four_views ? viewport::Arrangement::four
+                                                    : viewport::Arrangement::one);
+    if (now.view_state.side_wanted) {
+        look_from(*now.view_state.side_wanted, ask);
     }
-    if (now.session.workspace == Workspace::machine) {
+    if (now.view_state.workspace == Workspace::machine) {
         const bool arm = shows_arm(now) && now.arm.loaded();
         if (arm != std::exchange(showed_arm_, arm)) {
             view_.fit(); // it was connected or disconnected, and is another size than a part
         }
     }
     if (shows_arm(now)) {
-        if (now.session.fit_wanted_now() && now.arm.loaded()) {
+        if (now.view_state.fit_wanted_now() && now.arm.loaded()) {
             fit(now, ask);
         }
-    } else if (now.session.workspace == Workspace::plot) {
+    } else if (now.view_state.workspace == Workspace::plot) {
         fit_plot(now, ask);
     } else if (now.in_file()) {
         fit_file(now, ask);
-    } else if (now.session.fit_wanted_now() &&
+    } else if (now.view_state.fit_wanted_now() &&
                (shows_import(now) || (!now.import.is_open() && shows_the_project(now)))) {
         fit(now, ask);
     }
     fit_set_up(shown);
-    const auto beside = scene_beside(now, shown);
+    const auto compared = compared_scene(now, shown);
     const auto events =
-        beside ? view_.draw_two(ui, place, {beside->scene, beside->name}, {shown, shown_name_beside(now)})
-               : view_.draw(ui, place, shown);
+        compared ? view_.draw_two(
+                       ui, place, {compared->scene, compared->name}, {shown, shown_name_in_comparison(now)})
+                 : view_.draw(ui, place, shown);
     for (const viewport::ViewEvent& event : events) {
         obey(event, now, ask);
     }
     const bool four = view_.arrangement() == viewport::Arrangement::four; // by the button in the view
-    if (four != now.session.four_views) {
-        ask.show([four](actions::Session& session) { session.four_views = four; });
+    if (four != now.view_state.four_views) {
+        ask.show([four](actions::ViewState& view_state) { view_state.four_views = four; });
     }
     layer_button(ui, now, ask, catalogue_, view_.next_button());
 }

@@ -1,4 +1,4 @@
-// The 3D view in the window: what it shows comes from the workbench, what is done in it becomes actions.
+// The 3D view in the window: what it shows comes from the frame's state, what is done in it becomes actions.
 #pragma once
 
 #include "ui/panels/panel.h"
@@ -16,17 +16,17 @@ public:
     explicit ViewPanel(const actions::Catalogue& catalogue) : catalogue_(catalogue) {}
 
     /// Into `place` of the current pane.
-    void draw(Ui& ui, const Workbench& now, ActionQueue& ask, const widgets::Rect& place);
+    void draw(Ui& ui, const FrameState& now, ActionQueue& ask, const widgets::Rect& place);
 
     /// The surface point under the mouse, workpiece coordinates, mm.
     [[nodiscard]] std::optional<Vec3> under_mouse() const { return view_.under_mouse().on_surface; }
     [[nodiscard]] viewport::Viewport& viewport() { return view_; }
 
 private:
-    void fit(const Workbench& now, ActionQueue& ask);
+    void fit(const FrameState& now, ActionQueue& ask);
     void fit_set_up(const viewport::Scene& shown);
-    void fit_file(const Workbench& now, ActionQueue& ask);
-    void fit_plot(const Workbench& now, ActionQueue& ask);
+    void fit_file(const FrameState& now, ActionQueue& ask);
+    void fit_plot(const FrameState& now, ActionQueue& ask);
     void look_from(render::StandardView side, ActionQueue& ask);
     void follow_plot(const plan::PlotResult& made);
 
@@ -38,16 +38,16 @@ private:
     bool showed_arm_ = false; ///< when the Machine workspace was seen last
 };
 
-/// What the view shows of the workbench.
-[[nodiscard]] viewport::Scene scene_of(const Workbench& now);
+/// What the view shows of the frame's state.
+[[nodiscard]] viewport::Scene scene_of(const FrameState& now);
 
 /// The arm is shown in place of everything else.
-[[nodiscard]] bool shows_arm(const Workbench& now);
+[[nodiscard]] bool shows_arm(const FrameState& now);
 
 /// A surface that is being imported stands there in place of the project's, once it is read.
-[[nodiscard]] bool shows_import(const Workbench& now);
+[[nodiscard]] bool shows_import(const FrameState& now);
 
 /// Turns what was done in the view into requests.
-void obey(const viewport::ViewEvent& event, const Workbench& now, ActionQueue& ask);
+void obey(const viewport::ViewEvent& event, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

@@ -2,15 +2,15 @@
 
 namespace millwright::panels {
 
-WatchedLabels watched_labels(grid::ImproverStatus status) {
-    if (status == grid::ImproverStatus::running) {
+WatchedLabels watched_labels(grid::OptimiserStatus status) {
+    if (status == grid::OptimiserStatus::running) {
         return {"Best so far", "Change so far", "Axis dev. so far"};
     }
     return {"Mean error, kept", "Change", "Axis dev., kept"};
 }
 
-std::string watched_note(const grid::ImproverState& state) {
-    if (state.status == grid::ImproverStatus::running) {
+std::string watched_note(const grid::OptimiserState& state) {
+    if (state.status == grid::OptimiserStatus::running) {
         return "These values are not final: the whole path is measured at the end, and a grid that is then "
                "worse than the start grid is not kept. The final change can be smaller, or none.";
     }

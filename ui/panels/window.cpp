@@ -1,11 +1,11 @@
 #include "ui/panels/window.h"
 
-#include "ui/actions/arm_bench.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/arm_workspace.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/actions/shortcut.h"
 #include "ui/actions/synonyms.h"
 #include "ui/panels/internal/fields.h"
-#include "ui/panels/internal/hand_fields.h"
+#include "ui/panels/internal/manual_fields.h"
 #include "ui/panels/processor_diagram.h"
 #include "ui/panels/status_bar.h"
 #include "ui/render/imgui_compat.h"
@@ -40,8 +40,8 @@ constexpr double between_looks_at_pad = 0.02; ///< s
 constexpr double between_looks_for_pad = 0.5; ///< s
 
 /// Which of the sizes holds for the pane at the left, and for the lower one.
-float actions::PaneSizes::*left_size(const actions::Session& session) {
-    switch (session.workspace) {
+float actions::PaneSizes::*left_size(const actions::ViewState& view_state) {
+    switch (view_state.workspace) {
     case Workspace::program:
     case Workspace::machine:
         return &actions::PaneSizes::listing;
@@ -56,12 +56,12 @@ float actions::PaneSizes::*left_size(const actions::Session& session) {
     }
 }
 
-float actions::PaneSizes::*lower_size(const actions::Session& session) {
-    switch (session.workspace) {
+float actions::PaneSizes::*lower_size(const actions::ViewState& view_state) {
+    switch (view_state.workspace) {
     case Workspace::processor:
         return &actions::PaneSizes::processor;
     case Workspace::plot:
-        return &actions::PaneSizes::bench;
+        return &actions::PaneSizes::plot_lower;
     case Workspace::arm:
         return &actions::PaneSizes::arm_lower;
     default:
@@ -69,13 +69,13 @@ float actions::PaneSizes::*lower_size(const actions::Session& session) {
     }
 }
 
-float smallest_middle(const actions::Session& session) {
-    return session.workspace == Workspace::processor ? smallest_diagram : smallest_view;
+float smallest_middle(const actions::ViewState& view_state) {
+    return view_state.workspace == Workspace::processor ? smallest_diagram : smallest_view;
 }
 
 /// What a pane shows: where it is scrolled to is kept for each.
-std::string content_of(const actions::Session& session) {
-    return std::to_string(static_cast<int>(session.workspace));
+std::string content_of(const actions::ViewState& view_state) {
+    return std::to_string(static_cast<int>(view_state.workspace));
 }
 
 /// Something that could hold a jog is down.
@@ -114,29 +114,28 @@ bool stops_machine(std::string_view action) {
 
 } // namespace
 
-Window::Window(actions::Workshop& workshop)
-    : workshop_(workshop), menu_bar_(workshop.catalogue()), design_(workshop.catalogue()),
-      grid_(workshop.catalogue()), toolpath_(workshop.catalogue()), program_(workshop.catalogue()),
-      machine_(workshop.catalogue()), arm_(workshop.catalogue()), arm_jog_(workshop.catalogue()),
-      processor_(workshop.catalogue()), plot_(workshop.catalogue()), lower_(workshop.catalogue()),
-      dialogs_(workshop.catalogue()), view_(workshop.catalogue()) {}
+Window::Window(actions::AppController& app)
+    : app_(app), menu_bar_(app.catalogue()), design_(app.catalogue()), grid_(app.catalogue()),
+      toolpath_(app.catalogue()), program_(app.catalogue()), machine_(app.catalogue()), arm_(app.catalogue()),
+      arm_jog_(app.catalogue()), processor_(app.catalogue()), plot_(app.catalogue()), lower_(app.catalogue()),
+      dialogs_(app.catalogue()), view_(app.catalogue()) {}
 
 Window::Layout
-Window::layout(const Ui& ui, const actions::Session& session, float width, float height) const {
-    const actions::PaneSizes& sizes = session.panes;
+Window::layout(const Ui& ui, const actions::ViewState& view_state, float width, float height) const {
+    const actions::PaneSizes& sizes = view_state.panes;
     const float s = ui.px(seam);
     const float top = ui.px(menu_height);
     const float bottom = height - ui.px(status_height);
     // Sizes may be those of a larger window: the view keeps its room, and the left side gives more of it.
     const float wanted_right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
-    const float wanted_left = sizes.outline_shown ? ui.px(sizes.*left_size(session)) : 0.0F;
+    const float wanted_left = sizes.outline_shown ? ui.px(sizes.*left_size(view_state)) : 0.0F;
     const float missing =
-        std::max(0.0F, wanted_left + wanted_right + ui.px(smallest_middle(session)) - width);
+        std::max(0.0F, wanted_left + wanted_right + ui.px(smallest_middle(view_state)) - width);
     const float left =
         std::max(0.0F, wanted_left - std::round((wanted_right > 0.0F ? 0.7F : 1.0F) * missing));
     const float right = std::max(0.0F, wanted_right - (missing - (wanted_left - left)));
     const float high = std::max(0.0F, height - ui.px(smallest_view + timeline_height + menu_height));
-    const float lower = sizes.lower_shown ? std::min(ui.px(sizes.*lower_size(session)), high) : 0.0F;
+    const float lower = sizes.lower_shown ? std::min(ui.px(sizes.*lower_size(view_state)), high) : 0.0F;
     const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
@@ -156,40 +155,40 @@ Window::layout(const Ui& ui, const actions::Session& session, float width, float
 }
 
 /// What is held down while the machine takes no jog, or while the stop key is pressed, moves nothing later.
-bool Window::no_jog(const Workbench& now) {
-    const bool stop_key = now.session.workspace == actions::Workspace::arm && now.session.hand.arm_keys &&
-                          render::key_pressed(render::Key::slash);
-    const bool jogging = now.controller.status.activity == drivers::Activity::jog;
-    return stop_key || (now.controller.connected() && !jogging && !at_rest(now.controller).allowed);
+bool Window::no_jog(const FrameState& now) {
+    const bool stop_key = now.view_state.workspace == actions::Workspace::arm &&
+                          now.view_state.manual.arm_keys && render::key_pressed(render::Key::slash);
+    const bool jogging = now.connection.status.activity == drivers::Activity::jog;
+    return stop_key || (now.connection.connected() && !jogging && !at_rest(now.connection).allowed);
 }
 
 void Window::draw(Ui& ui, float width, float height, bool focused) {
-    const bool held = jog_may_be_held(workshop_.look().gamepad);
-    workshop_.watch_jog(held, focused);
-    const Workbench now = workshop_.look();
+    const bool held = jog_may_be_held(app_.look().gamepad);
+    app_.watch_jog(held, focused);
+    const FrameState now = app_.look();
     const bool may_jog = jog_gate_.follow(held,
                                           focused,
                                           search_.is_open() || now.asks() || no_jog(now),
-                                          now.session.workspace,
+                                          now.view_state.workspace,
                                           std::chrono::steady_clock::now());
-    if (search_.is_open() || now.session.search_wanted) {
+    if (search_.is_open() || now.view_state.search_wanted) {
         ui.claim_keys();
     }
-    const Layout place = layout(ui, now.session, width, height);
+    const Layout place = layout(ui, now.view_state, width, height);
     draw_panes(ui, now, place);
     draw_splitters(ui, now, place, width, height);
     draw_over(ui, now, place.view);
     obey_shortcuts(ui, now);
     forget_machine_notices(now);
-    workshop_.perform(ask_, may_jog && !search_.is_open());
-    for (widgets::Notice& notice : std::exchange(workshop_.session().notices, {})) {
+    app_.perform(ask_, may_jog && !search_.is_open());
+    for (widgets::Notice& notice : std::exchange(app_.view_state().notices, {})) {
         toasts_.push(std::move(notice));
     }
 }
 
 /// Notices of a machine's fault end with the fault, with its link, and when a job begins.
-void Window::forget_machine_notices(const Workbench& now) {
-    const actions::ControllerView& machine = now.controller;
+void Window::forget_machine_notices(const FrameState& now) {
+    const actions::ConnectionView& machine = now.connection;
     const MachineSeen seen{machine.connected(),
                            machine.connected() && machine.status.state == drivers::DriverState::alarm,
                            now.job.running};
@@ -199,7 +198,7 @@ void Window::forget_machine_notices(const Workbench& now) {
     }
 }
 
-void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
+void Window::draw_panes(Ui& ui, const FrameState& now, const Layout& place) {
     {
         const auto pane = ui.bare_pane("menu", place.menu);
         menu_bar_.draw(ui, now, ask_);
@@ -213,17 +212,17 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
     }
     draw_middle(ui, now, place);
     if (place.inspector.w > 0.0F) {
-        const auto pane = ui.pane("inspector", place.inspector, "Inspector", content_of(now.session));
+        const auto pane = ui.pane("inspector", place.inspector, "Inspector", content_of(now.view_state));
         draw_inspector(ui, now);
     }
     if (place.lower.h > 0.0F) {
-        const bool plots = now.session.workspace == Workspace::plot;
+        const bool plots = now.view_state.workspace == Workspace::plot;
         const std::string tab =
-            std::to_string(plots ? plot_.bench_tab() : static_cast<int>(now.session.lower_tab_now()));
-        const auto pane = ui.pane("lower", place.lower, {}, content_of(now.session) + "/" + tab);
-        if (now.session.workspace == Workspace::processor) {
+            std::to_string(plots ? plot_.bench_tab() : static_cast<int>(now.view_state.lower_tab_now()));
+        const auto pane = ui.pane("lower", place.lower, {}, content_of(now.view_state) + "/" + tab);
+        if (now.view_state.workspace == Workspace::processor) {
             processor_.draw_lower(ui, now, ask_);
-        } else if (now.session.workspace == Workspace::plot) {
+        } else if (now.view_state.workspace == Workspace::plot) {
             plot_.draw_bench(ui, now, ask_);
         } else {
             lower_.draw(ui, now, ask_);
@@ -234,8 +233,8 @@ void Window::draw_panes(Ui& ui, const Workbench& now, const Layout& place) {
 }
 
 /// What an alarm leaves of the drawing: it stands above that, where it moves no button.
-Rect Window::below_alarm(Ui& ui, const Workbench& now, const Rect& view) {
-    const Workspace shown = now.session.workspace;
+Rect Window::below_alarm(Ui& ui, const FrameState& now, const Rect& view) {
+    const Workspace shown = now.view_state.workspace;
     const std::string text = shown == Workspace::machine || shown == Workspace::arm ? alarm_text(now) : "";
     if (text.empty()) {
         return view;
@@ -248,8 +247,8 @@ Rect Window::below_alarm(Ui& ui, const Workbench& now, const Rect& view) {
     return {view.x, view.y + taken, view.w, view.h - taken};
 }
 
-void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
-    const bool processor = now.session.workspace == Workspace::processor;
+void Window::draw_middle(Ui& ui, const FrameState& now, const Layout& place) {
+    const bool processor = now.view_state.workspace == Workspace::processor;
     {
         const Rect drawing = below_alarm(ui, now, place.view);
         const auto pane = ui.bare_pane("view", drawing);
@@ -262,7 +261,7 @@ void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
     const auto pane = ui.pane("timeline", place.timeline);
     if (processor) {
         processor_.draw_steps(ui, now, ask_);
-    } else if (now.session.workspace == Workspace::arm) {
+    } else if (now.view_state.workspace == Workspace::arm) {
         arm_.draw_motion(ui, now, ask_);
     } else {
         timeline_.draw(ui, now, ask_);
@@ -270,8 +269,8 @@ void Window::draw_middle(Ui& ui, const Workbench& now, const Layout& place) {
 }
 
 /// Acts when the mouse goes down on it, whatever menu or dialog is open.
-void Window::draw_emergency_stop(Ui& ui, const Workbench& now) {
-    const actions::Action& stop = workshop_.catalogue().find("machine.emergency_stop");
+void Window::draw_emergency_stop(Ui& ui, const FrameState& now) {
+    const actions::Action& stop = app_.catalogue().find("machine.emergency_stop");
     const widgets::Permission permission = stop.permission(now);
     ui.move_by(0.0F, ui.px(10.0F));
     bool asked = false;
@@ -293,30 +292,30 @@ void Window::draw_emergency_stop(Ui& ui, const Workbench& now) {
 
 /// In the Program workspace the program itself, at the machine what moves it, else what the project is made
 /// of.
-void Window::draw_left(Ui& ui, const Workbench& now, const Rect& place) {
-    if (now.session.workspace == Workspace::program) {
-        const auto pane = ui.pane("program", place, "Program", content_of(now.session));
+void Window::draw_left(Ui& ui, const FrameState& now, const Rect& place) {
+    if (now.view_state.workspace == Workspace::program) {
+        const auto pane = ui.pane("program", place, "Program", content_of(now.view_state));
         listing_.draw(ui, now, ask_);
-    } else if (now.session.workspace == Workspace::machine) {
-        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.session));
+    } else if (now.view_state.workspace == Workspace::machine) {
+        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.view_state));
         machine_.draw_left(ui, now, ask_);
-    } else if (now.session.workspace == Workspace::processor) {
-        const auto pane = ui.pane("code", place, "Code", content_of(now.session));
+    } else if (now.view_state.workspace == Workspace::processor) {
+        const auto pane = ui.pane("code", place, "Code", content_of(now.view_state));
         processor_.draw_code(ui, now, ask_);
-    } else if (now.session.workspace == Workspace::arm) {
-        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.session));
+    } else if (now.view_state.workspace == Workspace::arm) {
+        const auto pane = ui.pane("hand", place, "Manual control", content_of(now.view_state));
         arm_jog_.draw(ui, now, ask_);
-    } else if (now.session.workspace == Workspace::plot) {
-        const auto pane = ui.pane("layers", place, "Plot & Picture", content_of(now.session));
+    } else if (now.view_state.workspace == Workspace::plot) {
+        const auto pane = ui.pane("layers", place, "Plot & Picture", content_of(now.view_state));
         plot_.draw_layers(ui, now, ask_);
     } else {
-        const auto pane = ui.pane("outline", place, "Project", content_of(now.session));
+        const auto pane = ui.pane("outline", place, "Project", content_of(now.view_state));
         outline_.draw(ui, now, ask_);
     }
 }
 
-void Window::draw_inspector(Ui& ui, const Workbench& now) {
-    switch (now.session.workspace) {
+void Window::draw_inspector(Ui& ui, const FrameState& now) {
+    switch (now.view_state.workspace) {
     case Workspace::design:
         return design_.draw(ui, now, ask_);
     case Workspace::grid:
@@ -336,9 +335,9 @@ void Window::draw_inspector(Ui& ui, const Workbench& now) {
     }
 }
 
-void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, float width, float height) {
+void Window::draw_splitters(Ui& ui, const FrameState& now, const Layout& place, float width, float height) {
     const auto scope = ui.scope("splitters");
-    const actions::PaneSizes& sizes = now.session.panes;
+    const actions::PaneSizes& sizes = now.view_state.panes;
     const float s = ui.px(seam);
     const auto drag = [&](std::string_view id,
                           const Rect& bar,
@@ -354,23 +353,23 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
             ask_.show([size,
                        value = *dragged / unit,
                        left = place.outline.w / unit,
-                       right = place.inspector.w / unit](actions::Session& session) {
-                if (session.panes.outline_shown) {
-                    session.panes.*left_size(session) = left;
+                       right = place.inspector.w / unit](actions::ViewState& view_state) {
+                if (view_state.panes.outline_shown) {
+                    view_state.panes.*left_size(view_state) = left;
                 }
-                if (session.panes.inspector_shown) {
-                    session.panes.inspector = right;
+                if (view_state.panes.inspector_shown) {
+                    view_state.panes.inspector = right;
                 }
-                session.panes.*size = value;
+                view_state.panes.*size = value;
             });
         }
     };
-    const float spare = width - ui.px(smallest_middle(now.session));
+    const float spare = width - ui.px(smallest_middle(now.view_state));
     if (sizes.outline_shown) {
         drag("outline",
              {place.outline.w, place.outline.y, s, place.outline.h},
              widgets::SizeOf::left,
-             left_size(now.session),
+             left_size(now.view_state),
              place.outline.w,
              140.0F,
              spare - place.inspector.w);
@@ -388,17 +387,17 @@ void Window::draw_splitters(Ui& ui, const Workbench& now, const Layout& place, f
         drag("lower",
              {0.0F, place.lower.y - s, place.lower.w, s},
              widgets::SizeOf::below,
-             lower_size(now.session),
+             lower_size(now.view_state),
              place.lower.h + s,
              90.0F,
              height - ui.px(smallest_view + timeline_height + menu_height));
     }
 }
 
-void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) {
-    if (now.session.search_wanted) {
+void Window::draw_over(Ui& ui, const FrameState& now, const widgets::Rect& view) {
+    if (now.view_state.search_wanted) {
         search_.open();
-        ask_.show([](actions::Session& session) { session.search_wanted = false; });
+        ask_.show([](actions::ViewState& view_state) { view_state.search_wanted = false; });
     }
     if (now.asks()) { // what is asked comes first, and has the keys
         search_.close();
@@ -406,7 +405,7 @@ void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) 
     dialogs_.draw(ui, now, ask_);
     std::vector<widgets::SearchItem> items;
     std::vector<std::string> ids;
-    for (const auto& action : workshop_.catalogue().all()) {
+    for (const auto& action : app_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
         if (info.menu == actions::dialog_menu) {
             continue;
@@ -426,8 +425,8 @@ void Window::draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view) 
     toasts_.draw(ui, "notices", view); // over the drawing, where they cover no button
 }
 
-void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
-    for (const auto& action : workshop_.catalogue().all()) {
+void Window::obey_shortcuts(const Ui& ui, const FrameState& now) {
+    for (const auto& action : app_.catalogue().all()) {
         const actions::ActionInfo& info = action->info();
         const bool kept_from =
             ui.keys_claimed() ? !stops_machine(info.id) : now.asks() && info.menu != "Machine";
@@ -444,14 +443,14 @@ void Window::obey_shortcuts(const Ui& ui, const Workbench& now) {
 }
 
 std::optional<double> Window::next_change() const {
-    const auto& session = workshop_.look().session;
-    const bool runs = session.playback.playing || workshop_.processor().running() || workshop_.arm().moving();
-    if (runs || workshop_.jogging()) {
+    const auto& view_state = app_.look().view_state;
+    const bool runs = view_state.playback.playing || app_.processor().running() || app_.arm().moving();
+    if (runs || app_.jogging()) {
         return 0.0;
     }
-    const Workbench now = workshop_.look();
-    const bool listens =
-        session.hand.pad_armed && now.controller.connected() && session.workspace == Workspace::machine;
+    const FrameState now = app_.look();
+    const bool listens = view_state.manual.pad_armed && now.connection.connected() &&
+                         view_state.workspace == Workspace::machine;
     if (!listens) {
         return std::nullopt;
     }

@@ -1,8 +1,8 @@
-// The whole window: lays out the panes, draws every panel, hands shortcuts and requests to the workshop.
-// Knows neither GLFW nor files: the app runs it in a window, tests and pictures run it in memory.
+// The whole window: lays out the panes, draws every panel, hands shortcuts and requests to the app
+// controller. Knows neither GLFW nor files: the app runs it in a window, tests and pictures run it in memory.
 #pragma once
 
-#include "ui/actions/workshop.h"
+#include "ui/actions/app_controller.h"
 #include "ui/panels/arm_jog_panel.h"
 #include "ui/panels/arm_panel.h"
 #include "ui/panels/design_panel.h"
@@ -27,7 +27,7 @@ namespace millwright::panels {
 
 class Window {
 public:
-    explicit Window(actions::Workshop& workshop);
+    explicit Window(actions::AppController& app);
 
     /// One frame of `width` x `height` pixels between Ui::begin_frame and end_frame: draws, then performs
     /// what was asked.
@@ -42,24 +42,24 @@ public:
 private:
     struct Layout;
     [[nodiscard]] Layout
-    layout(const Ui& ui, const actions::Session& session, float width, float height) const;
-    [[nodiscard]] static bool no_jog(const Workbench& now);
-    void draw_panes(Ui& ui, const Workbench& now, const Layout& layout);
-    void draw_emergency_stop(Ui& ui, const Workbench& now);
-    [[nodiscard]] static widgets::Rect below_alarm(Ui& ui, const Workbench& now, const widgets::Rect& view);
-    void draw_middle(Ui& ui, const Workbench& now, const Layout& place);
-    void draw_left(Ui& ui, const Workbench& now, const widgets::Rect& place);
-    void draw_inspector(Ui& ui, const Workbench& now);
-    void draw_splitters(Ui& ui, const Workbench& now, const Layout& layout, float width, float height);
-    void draw_over(Ui& ui, const Workbench& now, const widgets::Rect& view);
-    void obey_shortcuts(const Ui& ui, const Workbench& now);
-    void forget_machine_notices(const Workbench& now);
+    layout(const Ui& ui, const actions::ViewState& view_state, float width, float height) const;
+    [[nodiscard]] static bool no_jog(const FrameState& now);
+    void draw_panes(Ui& ui, const FrameState& now, const Layout& layout);
+    void draw_emergency_stop(Ui& ui, const FrameState& now);
+    [[nodiscard]] static widgets::Rect below_alarm(Ui& ui, const FrameState& now, const widgets::Rect& view);
+    void draw_middle(Ui& ui, const FrameState& now, const Layout& place);
+    void draw_left(Ui& ui, const FrameState& now, const widgets::Rect& place);
+    void draw_inspector(Ui& ui, const FrameState& now);
+    void draw_splitters(Ui& ui, const FrameState& now, const Layout& layout, float width, float height);
+    void draw_over(Ui& ui, const FrameState& now, const widgets::Rect& view);
+    void obey_shortcuts(const Ui& ui, const FrameState& now);
+    void forget_machine_notices(const FrameState& now);
 
     struct MachineSeen { ///< in the frame before
         bool connected = false, alarm = false, job = false;
     };
 
-    actions::Workshop& workshop_;
+    actions::AppController& app_;
     ActionQueue ask_;
     MenuBar menu_bar_;
     OutlinePanel outline_;

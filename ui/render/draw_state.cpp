@@ -31,7 +31,7 @@ Texture color_map_texture() {
     return Texture({map_entries, static_cast<int>(rows.size())}, rgba, Filter::linear);
 }
 
-void set_coloring(const Program& program, const Coloring& coloring, const Texture& maps) {
+void set_coloring(const ShaderProgram& program, const Coloring& coloring, const Texture& maps) {
     const ColorScale& scale = coloring.scale;
     const double span = scale.high - scale.low;
     program.set("color_from", static_cast<int>(coloring.from));
@@ -48,7 +48,7 @@ void set_coloring(const Program& program, const Coloring& coloring, const Textur
     glBindTexture(GL_TEXTURE_2D, maps.id());
 }
 
-void set_view(const Program& program, const View& view, const glm::mat4& model) {
+void set_view(const ShaderProgram& program, const View& view, const glm::mat4& model) {
     program.set("eye_from_buffer", glm::mat4(view.view * glm::dmat4(model)));
     program.set("clip_from_eye", glm::mat4(view.projection));
     program.set("picture_px", glm::vec2(view.size.width, view.size.height));
@@ -69,7 +69,7 @@ void set_depth(Depth depth, bool writes) {
     glDepthMask(writes && depth == Depth::tested ? GL_TRUE : GL_FALSE);
 }
 
-void draw_smooth(const Program& program, Depth depth, const std::function<void()>& draw) {
+void draw_smooth(const ShaderProgram& program, Depth depth, const std::function<void()>& draw) {
     enum Pass { everything, solid_inside, soft_edge };
     if (depth != Depth::tested) {
         set_depth(depth);

@@ -3,7 +3,7 @@
 
 #include "ui/render/coloring.h"
 #include "ui/render/gl_objects.h"
-#include "ui/render/program.h"
+#include "ui/render/shader_program.h"
 #include "ui/render/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -67,7 +67,7 @@ public:
     void draw(const LineBuffer& buffer, const LineStyle& style, const View& view, const Texture& maps) const;
 
 private:
-    Program program_;
+    ShaderProgram program_;
 };
 
 } // namespace millwright::render

@@ -4,7 +4,7 @@
 
 #include "ui/render/coloring.h"
 #include "ui/render/gl_objects.h"
-#include "ui/render/program.h"
+#include "ui/render/shader_program.h"
 #include "ui/render/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -58,7 +58,7 @@ public:
     void draw(const MeshBuffer& buffer, const MeshStyle& style, const View& view, const Texture& maps) const;
 
 private:
-    Program program_;
+    ShaderProgram program_;
 };
 
 } // namespace millwright::render

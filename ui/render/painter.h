@@ -7,7 +7,7 @@
 #include "ui/render/mesh_drawer.h"
 #include "ui/render/path_drawer.h"
 #include "ui/render/point_drawer.h"
-#include "ui/render/program.h"
+#include "ui/render/shader_program.h"
 #include "ui/render/view.h"
 #include "ui/render/view_colors.h"
 
@@ -30,7 +30,7 @@ public:
     void points(const PointBuffer& buffer, const PointStyle& style, const View& view) const;
 
 private:
-    Program background_;
+    ShaderProgram background_;
     VertexArray nothing_;
     Texture maps_;
     MeshDrawer mesh_;

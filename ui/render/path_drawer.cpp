@@ -17,7 +17,9 @@ namespace {
 
 constexpr float last_place = 65535.0F;
 
-void set_colors(const Program& program, const char* name, const std::array<glm::vec4, path_kinds>& colors) {
+void set_colors(const ShaderProgram& program,
+                const char* name,
+                const std::array<glm::vec4, path_kinds>& colors) {
     for (std::size_t k = 0; k < path_kinds; ++k) {
         program.set((std::string(name) + "[" + std::to_string(k) + "]").c_str(), colors[k]);
     }

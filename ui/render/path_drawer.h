@@ -4,7 +4,7 @@
 
 #include "ui/render/coloring.h"
 #include "ui/render/gl_objects.h"
-#include "ui/render/program.h"
+#include "ui/render/shader_program.h"
 #include "ui/render/view.h"
 
 #include <glm/mat4x4.hpp>
@@ -65,7 +65,7 @@ public:
               const View& view) const;
 
 private:
-    Program program_;
+    ShaderProgram program_;
 };
 
 } // namespace millwright::render

@@ -26,7 +26,7 @@ struct ArmLook {
 /// Throws Error with the place of what is wrong in the arm's file or its bodies'.
 [[nodiscard]] std::shared_ptr<const ArmLook> read_arm_look(const std::filesystem::path& file);
 
-/// A path of the tool, and what keeps the arm from following it: one a point, and the same count.
+/// A path of the tool, and what keeps the arm from following it: one per point, and the same count.
 struct ArmTrack {
     std::vector<Vec3> tips;
     std::vector<arm::ArmTrouble> troubles; ///< of coming to each

@@ -40,7 +40,7 @@ struct Obstacle {
 };
 
 std::vector<Obstacle> obstacles(const Scene& scene) {
-    const kinematics::MachineModel& machine = scene.workpiece->machine;
+    const kinematics::MachineModel& machine = scene.cutting_setup->machine;
     const std::vector<Frame> poses = body_poses(machine, axes_now(scene));
     std::vector<Obstacle> found;
     for (std::size_t k = 0; k < poses.size(); ++k) {
@@ -58,18 +58,19 @@ bool free_sight(const std::vector<Obstacle>& bodies, const Vec3& from, const Vec
 } // namespace
 
 double part_seen(const Scene& scene, const Vec3& to_eye) {
-    if (!scene.workpiece) {
+    if (!scene.cutting_setup) {
         return 0.0;
     }
     const std::vector<Obstacle> bodies = obstacles(scene);
     const Frame s_T_w = scene_from_workpiece(scene);
-    const double side = scene.workpiece->flipped ? -1.0 : 1.0;
+    const double side = scene.cutting_setup->flipped ? -1.0 : 1.0;
     double seen = 0.0;
     for (int k = 0; k < surface_samples * surface_samples; ++k) {
         const double u = (0.5 + k % surface_samples) / surface_samples;
         const double v = (0.5 + k / surface_samples) / surface_samples;
-        const Vec3 place = s_T_w * scene.workpiece->patch.position(u, v);
-        const Vec3 normal = s_T_w.linear() * scene.workpiece->patch.unit_normal(u, v).value_or(Vec3::UnitZ());
+        const Vec3 place = s_T_w * scene.cutting_setup->patch.position(u, v);
+        const Vec3 normal =
+            s_T_w.linear() * scene.cutting_setup->patch.unit_normal(u, v).value_or(Vec3::UnitZ());
         const double facing = side * normal.dot(to_eye);
         seen += facing > 0.0 && free_sight(bodies, place, to_eye) ? facing : 0.0;
     }

@@ -72,12 +72,13 @@ public:
             return;
         }
         if (scene_.layers.error_path) {
-            look_along(move, actual_tips(*scene_.workpiece, *scene_.shown, move, path_steps));
+            look_along(move, actual_tips(*scene_.cutting_setup, *scene_.shown, move, path_steps));
         } else {
-            look_along(
-                move,
-                on_surface(
-                    scene_.workpiece->patch, points[from].origin.uv, points[from + 1].origin.uv, path_steps));
+            look_along(move,
+                       on_surface(scene_.cutting_setup->patch,
+                                  points[from].origin.uv,
+                                  points[from + 1].origin.uv,
+                                  path_steps));
         }
     }
 
@@ -252,7 +253,7 @@ std::optional<PathHit> pick_move(const Scene& scene,
                                  double within_px,
                                  std::optional<double> sight_mm,
                                  double hidden_mm) {
-    if (!scene.shown || !scene.workpiece || !(scene.layers.toolpath || scene.layers.error_path)) {
+    if (!scene.shown || !scene.cutting_setup || !(scene.layers.toolpath || scene.layers.error_path)) {
         return std::nullopt;
     }
     const double farthest = sight_mm ? *sight_mm + hidden_mm : std::numeric_limits<double>::infinity();

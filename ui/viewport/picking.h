@@ -44,7 +44,7 @@ public:
 
 private:
     std::shared_ptr<const geometry::Surface> surface_;
-    std::vector<geometry::Mesh> meshes_; ///< one a patch
+    std::vector<geometry::Mesh> meshes_; ///< one per patch
 };
 
 /// The face of the reference that the ray (scene) meets first, no further than `farthest_mm` from the ray's

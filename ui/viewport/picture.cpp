@@ -128,7 +128,7 @@ private:
 void show_plan(Scene& scene, const plan::Plan& plan) {
     scene.surface = plan.surface;
     scene.trims = plan.trims;
-    scene.workpiece = plan.workpiece;
+    scene.cutting_setup = plan.cutting_setup;
     scene.singular_points = plan.singular_points;
     scene.weight = plan.weight;
 }

@@ -75,8 +75,8 @@ void add_design(PictureFacts& facts, const plan::Plan& plan) {
 
 std::string subtitle(const project::Project& project, const plan::Plan& plan, ViewKind kind) {
     std::string text(title(kind));
-    if (plan.workpiece) {
-        text += "  \u00B7  " + plan.workpiece->machine.name();
+    if (plan.cutting_setup) {
+        text += "  \u00B7  " + plan.cutting_setup->machine.name();
     }
     if (kind != ViewKind::design) {
         text += "  \u00B7  " + times(project.grid.nu, project.grid.nv) + " nodes";

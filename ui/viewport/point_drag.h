@@ -53,7 +53,7 @@ private:
     [[nodiscard]] Vec3 snapped(const render::View& view) const;
 
     std::vector<MovedControlPoint> start_;
-    std::vector<Vec3> shares_; ///< one a point
+    std::vector<Vec3> shares_; ///< one per point
     std::size_t grabbed_ = 0;
     Frame s_T_w_;
     glm::dvec2 start_pixel_{};

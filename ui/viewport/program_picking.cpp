@@ -55,7 +55,7 @@ private:
         return static_cast<double>((corner >> axis & 1U) != 0 ? block.max[axis] : block.min[axis]);
     }
 
-    [[nodiscard]] glm::dvec4 clip_of(const gcode::PathPoint& point) const {
+    [[nodiscard]] glm::dvec4 clip_of(const gcode::PreviewPoint& point) const {
         const float* p = point.xyz();
         return clip_from_scene_ * glm::dvec4(p[0], p[1], p[2], 1.0);
     }

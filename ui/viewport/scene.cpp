@@ -106,7 +106,7 @@ Layers layers_of_arm() {
 
 bool operator==(const Scene& a, const Scene& b) {
     return a.layers == b.layers && a.surface == b.surface && a.trims == b.trims &&
-           a.reference == b.reference && a.workpiece == b.workpiece &&
+           a.reference == b.reference && a.cutting_setup == b.cutting_setup &&
            std::ranges::equal(a.singular_points,
                               b.singular_points,
                               [](const auto& p, const auto& q) { return same(p, q); }) &&
@@ -123,9 +123,9 @@ std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {
     if (scene.opened) {
         return scene.opened->machine;
     }
-    return scene.workpiece
-               ? std::shared_ptr<const kinematics::MachineModel>(scene.workpiece, &scene.workpiece->machine)
-               : nullptr;
+    return scene.cutting_setup ? std::shared_ptr<const kinematics::MachineModel>(
+                                     scene.cutting_setup, &scene.cutting_setup->machine)
+                               : nullptr;
 }
 
 kinematics::AxisPositions axes_now(const Scene& scene) {
@@ -159,14 +159,14 @@ SurfaceColors surface_colors(const Scene& scene) {
     if (scene.layers.deviation && scene.reference && !scene.reference->deviation.empty()) {
         return SurfaceColors::deviation;
     }
-    if (scene.layers.weight && scene.weight && scene.workpiece) {
+    if (scene.layers.weight && scene.weight && scene.cutting_setup) {
         return SurfaceColors::weight;
     }
-    if (scene.layers.scallops && scene.cut && scene.workpiece) {
+    if (scene.layers.scallops && scene.cut && scene.cutting_setup) {
         return SurfaceColors::scallop;
     }
-    return scene.layers.error_surface && scene.shown && scene.workpiece ? SurfaceColors::error
-                                                                        : SurfaceColors::plain;
+    return scene.layers.error_surface && scene.shown && scene.cutting_setup ? SurfaceColors::error
+                                                                            : SurfaceColors::plain;
 }
 
 render::ColorScale weight_colors(const Scene& scene) {

@@ -7,7 +7,7 @@
 #include "core/geometry/net_symmetry.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/surface.h"
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 #include "core/plan/cut_study.h"
 #include "core/plan/evaluation.h"
 #include "core/plan/opened_program.h"
@@ -129,15 +129,15 @@ struct Scene {
     int sight = 0; ///< which of a view's cameras sees it: each number has its own; not of the picture itself
     Layers layers;
     std::shared_ptr<const geometry::Surface> surface;
-    std::shared_ptr<const std::vector<geometry::Trim>> trims = nullptr; ///< one a patch; null: all whole
+    std::shared_ptr<const std::vector<geometry::Trim>> trims = nullptr; ///< one per patch; null: all whole
     std::shared_ptr<const plan::ReferenceMesh> reference = nullptr;
-    std::shared_ptr<const plan::Workpiece> workpiece;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup;
     std::vector<toolpath::SingularPoint> singular_points;
     /// Bodies of the workpiece's machine in place of the simple ones; null: it has none.
     std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids = nullptr;
     std::shared_ptr<const plan::Evaluation> shown; ///< grid, path and errors that are drawn
     std::shared_ptr<const plan::Evaluation> start; ///< the grid it began with
-    std::shared_ptr<const grid::ImproverState>
+    std::shared_ptr<const grid::OptimiserState>
         watched; ///< an adaptation on its way; drawn in place of the grid
     std::shared_ptr<const plan::WeightMap> weight;
     std::shared_ptr<const plan::CutStudy> cut = nullptr;              ///< of the program

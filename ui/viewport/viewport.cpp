@@ -87,9 +87,9 @@ struct Viewport::State {
         std::vector<ViewEvent> events = pane.draw(frame, place);
         if (pane.in_use()) {
             active = k;
-            under_mouse = pane.hand().under_mouse();
+            under_mouse = pane.mouse_tool().under_mouse();
         }
-        dragging = dragging || pane.hand().drag().has_value();
+        dragging = dragging || pane.mouse_tool().drag().has_value();
         return events;
     }
 
@@ -244,9 +244,9 @@ Viewport::draw_two(widgets::Ui& ui, const Rect& place, const Named& left, const 
                            .also = &state.other->view};
     std::vector<ViewEvent> events = state.draw_of_two(of_right, 1, right_place);
     if (state.pair[1].in_use()) {
-        state.under_mouse = state.pair[1].hand().under_mouse();
+        state.under_mouse = state.pair[1].mouse_tool().under_mouse();
     }
-    state.dragging = state.pair[1].hand().drag().has_value();
+    state.dragging = state.pair[1].mouse_tool().drag().has_value();
     const Frame3D of_left{.ui = ui,
                           .scene = left.scene,
                           .view = state.other->view,

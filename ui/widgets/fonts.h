@@ -35,7 +35,7 @@ struct Fonts {
 
 struct LoadedFonts {
     Fonts fonts;
-    std::vector<Diagnostic> diagnostics; ///< one a file that is missing or is not a font
+    std::vector<Diagnostic> diagnostics; ///< one per file that is missing or is not a font
 };
 
 /// Clears `atlas` and builds it on the CPU for a monitor of that scale (1 is 96 dpi). The first font is the

@@ -30,8 +30,8 @@ struct HeatMapView {
     std::string_view y_label = {};
     std::string_view y_unit = {};
     std::string_view unit = {};          ///< of the values
-    std::span<const double> x = {};      ///< ascending, one a column
-    std::span<const double> y = {};      ///< ascending, one a row
+    std::span<const double> x = {};      ///< ascending, one per column
+    std::span<const double> y = {};      ///< ascending, one per row
     std::span<const double> values = {}; ///< row by row; one that is not finite is hatched
     ColourMap colours = {};              ///< of the least value at 0, of the greatest at 1
     std::optional<MapPlace> chosen = {}; ///< a ring

@@ -353,7 +353,7 @@ void draw_zeros(Ui& ui, const Mapping& mapping, const Rect& strip, float left, c
         float last = -std::numeric_limits<float>::infinity();
         for (std::size_t n = 0; n < series.x.size(); ++n) {
             const float x = mapping.pixel_x(series.x[n]);
-            if (is_zero_on_log(view, series.x[n], series.y[n]) && x - last >= 1.0F) { // one a column
+            if (is_zero_on_log(view, series.x[n], series.y[n]) && x - last >= 1.0F) { // one per column
                 list.AddLine({x - arm, middle - arm}, {x + arm, middle + arm}, colour, ui.px(line_width));
                 list.AddLine({x - arm, middle + arm}, {x + arm, middle - arm}, colour, ui.px(line_width));
                 last = x;

@@ -2,10 +2,10 @@
 // corrections, unfolding behind them.
 #pragma once
 
-#include "core/cordic/fold.h"
 #include "core/cordic/internal/space_line.h"
 #include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
+#include "core/cordic/quadrant_fold.h"
 
 namespace millwright::cordic::internal {
 

@@ -1,9 +1,9 @@
 // What the data path does for a line in space: bearing and length in the plane first, then the slope.
 #pragma once
 
-#include "core/cordic/fold.h"
 #include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
+#include "core/cordic/quadrant_fold.h"
 
 #include <algorithm>
 

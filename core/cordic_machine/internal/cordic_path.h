@@ -65,7 +65,7 @@ private:
     bool rotate(const DividedTurn& arc, std::int64_t k, const Rotations& rotations, const FeedOf& feed);
 
     CordicProgramSettings settings_;
-    cordic::ChordTurner turner_;
+    cordic::ChordEndModel turner_;
     CordicCode& code_;
     Place3 at_;      ///< as the program has it
     HeldPlace held_; ///< as the processor has it

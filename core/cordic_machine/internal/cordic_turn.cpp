@@ -4,8 +4,8 @@
 
 namespace millwright::cordic_machine::internal {
 
-HeldPlace held(const cordic::ChordTurner& turner, const cordic::PlaceWords& words) {
-    return {words, {turner.number(words.x), turner.number(words.y), turner.number(words.z)}};
+HeldPlace held(const cordic::ChordEndModel& chord_ends, const cordic::PlaceWords& words) {
+    return {words, {chord_ends.number(words.x), chord_ends.number(words.y), chord_ends.number(words.z)}};
 }
 
 double CordicTurn::sagitta() const {
@@ -22,7 +22,7 @@ Place3 CordicTurn::at(std::int64_t k) const {
     return {about.x + dx * c - dy * s, about.y + dx * s + dy * c, about.z + rise * share};
 }
 
-Rotations rotations_within(const cordic::ChordTurner& turner,
+Rotations rotations_within(const cordic::ChordEndModel& chord_ends,
                            const cordic::ArcWords& words,
                            const CordicTurn& turn,
                            const HeldPlace& from,
@@ -31,11 +31,11 @@ Rotations rotations_within(const cordic::ChordTurner& turner,
                            double slack) {
     Rotations done{.end = from};
     while (done.count < most) {
-        const auto next = turner.next(words, done.end.words);
-        if (!next || *next == done.end.words || !turner.reaches(done.end.words, *next)) {
+        const auto next = chord_ends.next(words, done.end.words);
+        if (!next || *next == done.end.words || !chord_ends.reaches(done.end.words, *next)) {
             break;
         }
-        const HeldPlace end = held(turner, *next);
+        const HeldPlace end = held(chord_ends, *next);
         done.aside = std::max(done.aside, distance(end.place, turn.at(k + done.count + 1)));
         if (done.aside > slack) {
             break;

@@ -2,7 +2,7 @@
 // one before, whose rounding it inherits.
 #pragma once
 
-#include "core/cordic/chord_turner.h"
+#include "core/cordic/chord_end_model.h"
 
 #include <cmath>
 #include <cstdint>
@@ -24,7 +24,7 @@ struct HeldPlace {
     Place3 place;
 };
 
-[[nodiscard]] HeldPlace held(const cordic::ChordTurner& turner, const cordic::PlaceWords& words);
+[[nodiscard]] HeldPlace held(const cordic::ChordEndModel& chord_ends, const cordic::PlaceWords& words);
 
 struct CordicTurn {
     Place3 from;
@@ -48,9 +48,9 @@ struct Rotations {
     double aside = 0.0; ///< mm: distance of the farthest end from its place, the refused one among them
 };
 
-/// As many chords of `turn` behind its first `k` as `turner` turns from `from` without any of them ending
+/// As many chords of `turn` behind its first `k` as `chord_ends` turns from `from` without any of them ending
 /// farther than `slack` mm from its place, or where it began, at most `most`.
-[[nodiscard]] Rotations rotations_within(const cordic::ChordTurner& turner,
+[[nodiscard]] Rotations rotations_within(const cordic::ChordEndModel& chord_ends,
                                          const cordic::ArcWords& words,
                                          const CordicTurn& turn,
                                          const HeldPlace& from,

@@ -1,27 +1,27 @@
 #include "core/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
+#include "core/drivers/grbl/grbl_settings.h"
 #include "core/drivers/grbl/internal/axis_limits.h"
 #include "core/drivers/grbl/internal/axis_units.h"
 #include "core/drivers/grbl/internal/console_words.h"
-#include "core/drivers/grbl/internal/session.h"
-#include "core/drivers/grbl/settings.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 
 #include <utility>
 
 namespace millwright::drivers {
 
-using grbl::Session;
+using grbl::GrblSession;
 
 GrblDriver::GrblDriver(std::unique_ptr<links::Link> link, const Clock& clock, GrblOptions options)
     : SessionDriver(std::move(link),
                     clock,
-                    std::make_unique<Session>(grbl::SessionSettings{
+                    std::make_unique<GrblSession>(grbl::SessionSettings{
                         options.one_by_one, options.poll_interval, options.patience, options.greeting_time}),
                     grbl::console_words()) {}
 
-Session& GrblDriver::talk() const {
-    return static_cast<Session&>(session());
+GrblSession& GrblDriver::talk() const {
+    return static_cast<GrblSession&>(session());
 }
 
 Capabilities GrblDriver::capabilities() const {

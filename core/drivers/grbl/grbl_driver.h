@@ -34,7 +34,7 @@ struct GrblReadout {
 };
 
 namespace grbl {
-class Session;
+class GrblSession;
 }
 
 class GrblDriver final : public SessionDriver {
@@ -73,7 +73,7 @@ public:
     [[nodiscard]] std::vector<std::string> remarks() const override;
 
 private:
-    [[nodiscard]] grbl::Session& talk() const;
+    [[nodiscard]] grbl::GrblSession& talk() const;
 };
 
 } // namespace millwright::drivers

@@ -1,16 +1,16 @@
 #include "core/emulators/grbl/grbl_emulator.h"
 
 #include "core/base/error.h"
-#include "core/emulators/grbl/internal/controller.h"
+#include "core/emulators/grbl/internal/emulated_controller.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace millwright::emulators {
 
-class GrblEmulator::Body final : public internal::Controller {
+class GrblEmulator::Body final : public internal::EmulatedController {
 public:
-    using Controller::Controller;
+    using EmulatedController::EmulatedController;
 };
 
 namespace {

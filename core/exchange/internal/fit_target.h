@@ -4,7 +4,7 @@
 
 #include "core/exchange/cad_file.h"
 #include "core/exchange/internal/mesh_outlines.h"
-#include "core/exchange/internal/seen_side.h"
+#include "core/exchange/internal/visible_side.h"
 
 #include <array>
 #include <vector>
@@ -26,7 +26,7 @@ struct Spread {
 };
 
 struct FitTarget {
-    SeenSide side;
+    VisibleSide side;
     const CadFace* face = nullptr; ///< null for a mesh
     std::vector<Vec2> places;      ///< on the face, one per point of the side; empty for a mesh
     MeshOutlines outlines{};       ///< of a mesh alone

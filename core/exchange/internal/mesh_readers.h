@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/exchange/internal/soup.h"
+#include "core/exchange/internal/polygon_soup.h"
 
 #include <filesystem>
 #include <string_view>
@@ -13,12 +13,12 @@ namespace millwright::exchange {
 /// Binary or text.
 void read_stl(std::string_view bytes,
               const std::filesystem::path& file,
-              Soup& soup,
+              PolygonSoup& soup,
               const Progress& progress);
 /// Wavefront: v and f; all else is read over.
-void read_obj(std::string_view bytes, Soup& soup, const Progress& progress);
+void read_obj(std::string_view bytes, PolygonSoup& soup, const Progress& progress);
 /// Text or binary of either byte order: x, y, z of `vertex`, vertex_indices of `face` and `tristrips`; all
 /// else is read over.
-void read_ply(std::string_view bytes, Soup& soup, const Progress& progress);
+void read_ply(std::string_view bytes, PolygonSoup& soup, const Progress& progress);
 
 } // namespace millwright::exchange

@@ -8,7 +8,7 @@ namespace millwright::exchange {
 namespace {
 
 /// 7, 7/1, 7//2 or 7/1/2: the first point is 1, the last one is -1.
-int corner_from(std::string_view word, const Soup& soup, int line) {
+int corner_from(std::string_view word, const PolygonSoup& soup, int line) {
     const auto number = number_from<int>(word.substr(0, word.find('/')));
     if (!number || *number == 0) {
         soup.fail(fmt::format("'{}' is not a valid corner of a face", word.substr(0, 40)), line);
@@ -23,7 +23,7 @@ int corner_from(std::string_view word, const Soup& soup, int line) {
 
 } // namespace
 
-void read_obj(std::string_view bytes, Soup& soup, const Progress& progress) {
+void read_obj(std::string_view bytes, PolygonSoup& soup, const Progress& progress) {
     constexpr int between_checks = 10'000;
     WordLines lines(bytes);
     std::vector<int> face;

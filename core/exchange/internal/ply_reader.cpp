@@ -60,7 +60,7 @@ std::optional<Scalar> scalar_named(std::string_view word) {
 
 class HeadReader {
 public:
-    HeadReader(WordLines& lines, const Soup& soup) : lines_(lines), soup_(soup) {}
+    HeadReader(WordLines& lines, const PolygonSoup& soup) : lines_(lines), soup_(soup) {}
 
     [[nodiscard]] Head read() {
         const auto* first = lines_.next();
@@ -121,14 +121,14 @@ private:
     }
 
     WordLines& lines_;
-    const Soup& soup_;
+    const PolygonSoup& soup_;
     Head head_;
 };
 
 /// The numbers after the head, one after another, of a text file or a binary one.
 class Numbers {
 public:
-    Numbers(Order order, WordLines& lines, const Soup& soup)
+    Numbers(Order order, WordLines& lines, const PolygonSoup& soup)
         : order_(order), lines_(lines), bytes_(lines.rest()), soup_(soup) {}
 
     [[nodiscard]] double next(Scalar type) {
@@ -209,7 +209,7 @@ private:
     Order order_;
     WordLines& lines_;
     std::string_view bytes_;
-    const Soup& soup_;
+    const PolygonSoup& soup_;
     const std::vector<std::string_view>* words_ = nullptr;
     std::size_t word_ = 0;
 };
@@ -218,7 +218,7 @@ private:
 /// a strip. Every other triangle of a strip is turned round, and so are its corners.
 class Strips {
 public:
-    Strips(Soup& soup, int line) : soup_(soup), line_(line) {}
+    Strips(PolygonSoup& soup, int line) : soup_(soup), line_(line) {}
 
     void add(double corner) {
         if (std::abs(corner + 1.0) > 0.0) {
@@ -230,7 +230,7 @@ public:
     }
 
 private:
-    Soup& soup_;
+    PolygonSoup& soup_;
     int line_;
     std::vector<double> corners_; ///< of the strip, so far
 
@@ -238,7 +238,7 @@ private:
 };
 
 /// A whole number that fits.
-int whole(double value, const Soup& soup, int line) {
+int whole(double value, const PolygonSoup& soup, int line) {
     constexpr double largest = 2147483647.0;
     if (!(value >= 0.0 && value <= largest) || std::floor(value) < value) {
         soup.fail(fmt::format("{} is not a valid index or list length", value), line);
@@ -264,7 +264,7 @@ void Strips::add_triangle() {
     }
 }
 
-void read_element(const Element& element, Numbers& numbers, Soup& soup, const Progress& progress) {
+void read_element(const Element& element, Numbers& numbers, PolygonSoup& soup, const Progress& progress) {
     constexpr std::int64_t between_checks = 10'000;
     constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
     for (std::int64_t n = 0; n < element.count; ++n) {
@@ -305,7 +305,7 @@ void read_element(const Element& element, Numbers& numbers, Soup& soup, const Pr
 
 } // namespace
 
-void read_ply(std::string_view bytes, Soup& soup, const Progress& progress) {
+void read_ply(std::string_view bytes, PolygonSoup& soup, const Progress& progress) {
     WordLines lines(bytes);
     const Head head = HeadReader(lines, soup).read();
     Numbers numbers(head.order, lines, soup);

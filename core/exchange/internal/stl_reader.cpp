@@ -42,7 +42,7 @@ std::string left_over_text(std::uint32_t count, std::uint64_t bytes) {
                        bytes / facet_size);
 }
 
-void read_binary(std::string_view bytes, Soup& soup, const Progress& progress) {
+void read_binary(std::string_view bytes, PolygonSoup& soup, const Progress& progress) {
     if (bytes.size() < stl_head_size) {
         soup.fail(
             fmt::format("neither text nor the {} bytes that a binary STL file starts with", stl_head_size));
@@ -87,7 +87,7 @@ std::string keyword_of(const std::vector<std::string_view>& words) {
     return word;
 }
 
-void read_text(std::string_view bytes, Soup& soup, const Progress& progress) {
+void read_text(std::string_view bytes, PolygonSoup& soup, const Progress& progress) {
     WordLines lines(bytes);
     int corners = -1; // outside of a loop
     while (const auto* words = lines.next()) {
@@ -152,7 +152,7 @@ void refuse_wide_stl(std::string_view bytes, const std::filesystem::path& file) 
 
 void read_stl(std::string_view bytes,
               const std::filesystem::path& file,
-              Soup& soup,
+              PolygonSoup& soup,
               const Progress& progress) {
     refuse_wide_stl(bytes, file);
     is_text(bytes) ? read_text(bytes, soup, progress) : read_binary(bytes, soup, progress);

@@ -32,7 +32,10 @@ const std::vector<std::string_view>* WordLines::next() {
     }
 }
 
-Vec3 vector_from(const std::vector<std::string_view>& words, std::size_t first, const Soup& soup, int line) {
+Vec3 vector_from(const std::vector<std::string_view>& words,
+                 std::size_t first,
+                 const PolygonSoup& soup,
+                 int line) {
     if (words.size() < first + 3) {
         soup.fail("three numbers are missing here", line);
     }

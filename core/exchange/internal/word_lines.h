@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/text.h"
-#include "core/exchange/internal/soup.h"
+#include "core/exchange/internal/polygon_soup.h"
 
 #include <charconv>
 #include <optional>
@@ -42,6 +42,6 @@ template <typename Number> std::optional<Number> number_from(std::string_view wo
 
 /// Three numbers of a line, from word `first` on. Fails about the line if they are not there.
 [[nodiscard]] Vec3
-vector_from(const std::vector<std::string_view>& words, std::size_t first, const Soup& soup, int line);
+vector_from(const std::vector<std::string_view>& words, std::size_t first, const PolygonSoup& soup, int line);
 
 } // namespace millwright::exchange

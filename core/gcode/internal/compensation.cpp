@@ -4,8 +4,8 @@
 #include "core/base/units.h"
 #include "core/gcode/internal/arc_geometry.h"
 #include "core/gcode/internal/compensated_corner.h"
+#include "core/gcode/internal/compensation_lookahead.h"
 #include "core/gcode/internal/expression.h"
-#include "core/gcode/internal/held_moves.h"
 #include "core/gcode/internal/refusal.h"
 
 #include <fmt/format.h>

@@ -68,7 +68,7 @@ void peck(const Hole& hole, bool break_chips_only) {
 }
 
 void tap(const Hole& hole, bool right_handed) {
-    Outbox& out = hole.run.out;
+    CanonQueue& out = hole.run.out;
     const bool feed_override = hole.run.feed_override_enabled;
     const bool speed_override = hole.run.state.speed_override;
     out.send(CommandKind::disable_feed_override);

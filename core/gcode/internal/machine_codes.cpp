@@ -1,7 +1,7 @@
 #include "core/gcode/internal/machine_codes.h"
 
 #include "core/base/numbers.h"
-#include "core/gcode/internal/held_moves.h"
+#include "core/gcode/internal/compensation_lookahead.h"
 #include "core/gcode/internal/offsets.h"
 #include "core/gcode/internal/refusal.h"
 #include "core/gcode/internal/saved_modes.h"

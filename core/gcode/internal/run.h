@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/gcode/internal/block.h"
-#include "core/gcode/internal/outbox.h"
+#include "core/gcode/internal/canon_queue.h"
 #include "core/gcode/internal/source_files.h"
 #include "core/gcode/internal/variables.h"
 #include "core/gcode/modal_state.h"
-#include "core/gcode/settings.h"
+#include "core/gcode/reader_settings.h"
 
 #include <optional>
 #include <vector>
@@ -37,7 +37,7 @@ struct Run {
     ModalState state;
     Variables variables;
     ToolTable tools;
-    Outbox out;
+    CanonQueue out;
     NurbsBeingDefined nurbs;
     bool feed_override_enabled = true; ///< G76 enables it and says nothing of that to `state`, as in LinuxCNC
     bool after_spline = false;         ///< the last motion was G5

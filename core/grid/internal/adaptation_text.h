@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/grid/elliptic_solver.h"
-#include "core/grid/improver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <string>
 #include <vector>
@@ -14,11 +14,11 @@ namespace millwright::grid {
 
 [[nodiscard]] std::string mean_sentence(const ErrorSummary& error);
 
-[[nodiscard]] std::string iteration_sentence(const ImproverState& state);
+[[nodiscard]] std::string iteration_sentence(const OptimiserState& state);
 
 /// That the solver did not converge in the round that has just ended.
 /// `iterations`: of the round, without those before a restart.
-[[nodiscard]] std::string unsolved_sentence(const ImproverState& state, int iterations, double tolerance);
+[[nodiscard]] std::string unsolved_sentence(const OptimiserState& state, int iterations, double tolerance);
 
 /// Of the refused grids those with a lower mean than the one that was taken: how good they were, and why not.
 /// `too_wide` and `worse_elsewhere` are their means, mm.

@@ -22,7 +22,7 @@ public:
     void remember(const NodeArray& nodes, const NodeArray& residuals);
 
     /// What is remembered at most, for each node.
-    [[nodiscard]] static std::size_t bytes_a_node();
+    [[nodiscard]] static std::size_t bytes_per_node();
 
 private:
     struct Found {

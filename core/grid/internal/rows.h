@@ -25,18 +25,18 @@ void for_rows(int rows, int columns, const Body& body, int worth_a_thread = node
     parallel_for(rows, chunk, [&](std::ptrdiff_t i) { body(static_cast<int>(i)); });
 }
 
-inline constexpr std::size_t nodes_a_piece = 4096;
+inline constexpr std::size_t nodes_per_piece = 4096;
 
 /// How many pieces for_pieces() makes of `nodes`.
 [[nodiscard]] constexpr std::size_t pieces_of(std::size_t nodes) {
-    return (nodes + nodes_a_piece - 1) / nodes_a_piece;
+    return (nodes + nodes_per_piece - 1) / nodes_per_piece;
 }
 
-/// Calls `body(first, count)` for pieces that make up [0, nodes), `first` a multiple of nodes_a_piece.
+/// Calls `body(first, count)` for pieces that make up [0, nodes), `first` a multiple of nodes_per_piece.
 template <class Body> void for_pieces(std::size_t nodes, const Body& body) {
     const std::size_t pieces = pieces_of(nodes);
     const auto run = [&](std::size_t k) {
-        body(k * nodes_a_piece, std::min(nodes_a_piece, nodes - k * nodes_a_piece));
+        body(k * nodes_per_piece, std::min(nodes_per_piece, nodes - k * nodes_per_piece));
     };
     if (pieces == 1) {
         run(0);

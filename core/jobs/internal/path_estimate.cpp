@@ -19,7 +19,7 @@ double nearest_part(const Vec3& at, const Vec3& from, const Vec3& to) {
 
 } // namespace
 
-PathEstimate::PathEstimate(std::vector<Survey::PathPoint> path, const Vec3& start)
+PathEstimate::PathEstimate(std::vector<ProgramCheck::MoveEnd> path, const Vec3& start)
     : path_(std::move(path)), start_(start) {}
 
 double PathEstimate::length_of(std::size_t move) const {

@@ -2,7 +2,7 @@
 // reported position is looked for on the path of the program. Lengths mm.
 #pragma once
 
-#include "core/jobs/survey.h"
+#include "core/jobs/program_check.h"
 
 #include <cstddef>
 #include <vector>
@@ -18,8 +18,8 @@ class PathEstimate {
 public:
     /// Knows no path, and estimates nothing.
     PathEstimate() = default;
-    /// `path` as surveyed from `start`, both machine coordinates.
-    PathEstimate(std::vector<Survey::PathPoint> path, const Vec3& start);
+    /// `path` as checked from `start`, both machine coordinates.
+    PathEstimate(std::vector<ProgramCheck::MoveEnd> path, const Vec3& start);
 
     [[nodiscard]] bool knows_path() const { return !path_.empty(); }
     /// On the first move that `at` lies on, from the move of the last call on and of the lines `first` to
@@ -28,7 +28,7 @@ public:
     [[nodiscard]] PathPlace place_at(const Vec3& at, int first, int last);
 
 private:
-    std::vector<Survey::PathPoint> path_;
+    std::vector<ProgramCheck::MoveEnd> path_;
     Vec3 start_ = Vec3::Zero();
     std::size_t next_ = 0; ///< move of the last call
     PathPlace place_;

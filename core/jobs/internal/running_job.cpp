@@ -23,11 +23,11 @@ RunningJob::RunningJob(JobSurroundings around,
                        JobLog& log,
                        std::shared_ptr<const motion::Trajectory> trajectory,
                        drivers::DriverStatus before,
-                       Reach reach,
+                       PositionEnvelope envelope,
                        PathEstimate estimate)
     : driver_(around.driver), clock_(around.clock), take_requests_(std::move(around.take_requests)),
       stop_(std::move(around.stop)), job_(job), file_(log.file()), trajectory_(std::move(trajectory)),
-      reach_(std::move(reach)), estimate_(std::move(estimate)), able_(driver_.capabilities()),
+      envelope_(std::move(envelope)), estimate_(std::move(estimate)), able_(driver_.capabilities()),
       start_(clock_.now()), last_(std::move(before)), doubt_before_(last_.position_doubt) {
     last_.own_lines.clear();
     last_.executed_blocks = last_.sent_blocks = 0; // those are of the program before
@@ -150,7 +150,7 @@ void RunningJob::watch_reach(const drivers::DriverStatus& status) {
     if (!beyond_.empty()) {
         return;
     }
-    beyond_ = reach_.watch(status, clock_.now());
+    beyond_ = envelope_.watch(status, clock_.now());
     if (!beyond_.empty()) {
         driver_.break_off(beyond_);
         last_.message = beyond_;

@@ -6,7 +6,7 @@
 #include "core/base/progress.h"
 #include "core/drivers/driver.h"
 #include "core/jobs/internal/path_estimate.h"
-#include "core/jobs/internal/reach.h"
+#include "core/jobs/internal/position_envelope.h"
 #include "core/jobs/internal/shared_log.h"
 #include "core/jobs/job.h"
 #include "core/jobs/job_log.h"
@@ -54,7 +54,7 @@ public:
                JobLog& log,
                std::shared_ptr<const motion::Trajectory> trajectory,
                drivers::DriverStatus before,
-               Reach reach,
+               PositionEnvelope envelope,
                PathEstimate estimate);
     RunningJob(const RunningJob&) = delete;
     RunningJob& operator=(const RunningJob&) = delete;
@@ -98,7 +98,7 @@ private:
     const Job& job_;
     std::filesystem::path file_; ///< of the log
     std::shared_ptr<const motion::Trajectory> trajectory_;
-    Reach reach_;
+    PositionEnvelope envelope_;
     PathEstimate estimate_;
     std::string beyond_; ///< what was seen of a machine that left the reach; empty: nothing
     drivers::Capabilities able_;

@@ -18,8 +18,8 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 /// the linear axes together by what the program's acceleration reaches in that time.
 double by_small_step(const Mechanism& machine,
                      const PlannerSettings& settings,
-                     const Leg& before,
-                     const Leg& after) {
+                     const PlannedMove& before,
+                     const PlannedMove& after) {
     constexpr double straight = 1e-15; // rounding of a unit vector
     const double turn = (after.unit - before.unit).cwiseAbs().maxCoeff();
     if (!(turn > straight)) {
@@ -37,8 +37,8 @@ struct PlainDirection {
     double length = 0.0;
 };
 
-PlainDirection plain(const Mechanism& machine, const Leg& leg) {
-    PlainDirection result{leg.direction, 0.0};
+PlainDirection plain(const Mechanism& machine, const PlannedMove& move) {
+    PlainDirection result{move.direction, 0.0};
     for (const int n : machine.rotary_axes()) {
         result.unit[n] = to_degrees(result.unit[n]);
     }
@@ -51,8 +51,8 @@ PlainDirection plain(const Mechanism& machine, const Leg& leg) {
 /// between the way back and the way on, and a what the axes can do in the direction of the change.
 double by_junction_deviation(const Mechanism& machine,
                              const PlannerSettings& settings,
-                             const Leg& before,
-                             const Leg& after) {
+                             const PlannedMove& before,
+                             const PlannedMove& after) {
     constexpr double nearly = 0.999999; // a cosine beyond it: a full turn, or straight on
     const PlainDirection in = plain(machine, before);
     const PlainDirection out = plain(machine, after);
@@ -80,8 +80,10 @@ double by_junction_deviation(const Mechanism& machine,
 
 } // namespace
 
-double
-corner_speed(const Mechanism& machine, const PlannerSettings& settings, const Leg& before, const Leg& after) {
+double corner_speed(const Mechanism& machine,
+                    const PlannerSettings& settings,
+                    const PlannedMove& before,
+                    const PlannedMove& after) {
     return settings.corner_rule == CornerRule::small_step
                ? by_small_step(machine, settings, before, after)
                : by_junction_deviation(machine, settings, before, after);

@@ -2,7 +2,7 @@
 // the Jacobian J of the tip and the direction q' of the axes.
 #pragma once
 
-#include "core/motion/internal/leg.h"
+#include "core/motion/internal/planned_move.h"
 
 namespace millwright::motion::internal {
 

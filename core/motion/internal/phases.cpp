@@ -32,28 +32,28 @@ void PhaseList::add(double way, double speed, double acceleration, double durati
     }
 }
 
-void PhaseList::go(const Stretch& stretch, double start_speed, double end_speed) {
-    const double a = stretch.acceleration;
-    const double length = stretch.end - stretch.begin;
+void PhaseList::go(const SpeedSegment& speed_segment, double start_speed, double end_speed) {
+    const double a = speed_segment.acceleration;
+    const double length = speed_segment.end - speed_segment.begin;
     if (!(length > 0.0)) {
         return;
     }
     const double without_cruise =
         std::sqrt(std::max(0.0, (square(start_speed) + square(end_speed)) / 2.0 + a * length));
-    const bool too_fast = start_speed > stretch.speed;
-    const double peak = too_fast
-                            ? std::max(stretch.speed, end_speed)
-                            : std::max({std::min(stretch.speed, without_cruise), start_speed, end_speed});
+    const bool too_fast = start_speed > speed_segment.speed;
+    const double peak =
+        too_fast ? std::max(speed_segment.speed, end_speed)
+                 : std::max({std::min(speed_segment.speed, without_cruise), start_speed, end_speed});
     const double begun =
         too_fast ? length_between(peak, start_speed, a) : length_between(start_speed, peak, a);
     const double ended = length_between(end_speed, peak, a);
-    const double cruise = too_fast || without_cruise > stretch.speed ? length - begun - ended : 0.0;
-    add(stretch.begin, start_speed, too_fast ? -a : a, std::abs(peak - start_speed) / a);
+    const double cruise = too_fast || without_cruise > speed_segment.speed ? length - begun - ended : 0.0;
+    add(speed_segment.begin, start_speed, too_fast ? -a : a, std::abs(peak - start_speed) / a);
     if (cruise > 0.0) {
-        add(stretch.begin + begun, peak, 0.0, cruise / peak);
+        add(speed_segment.begin + begun, peak, 0.0, cruise / peak);
     }
-    add(stretch.end - ended, peak, -a, (peak - end_speed) / a);
-    way_ = stretch.end;
+    add(speed_segment.end - ended, peak, -a, (peak - end_speed) / a);
+    way_ = speed_segment.end;
 }
 
 void PhaseList::brake(double start_speed, double end_speed, double acceleration, double end) {

@@ -1,7 +1,7 @@
 // Phases of constant acceleration (timing.h), put one after another.
 #pragma once
 
-#include "core/motion/internal/stretches.h"
+#include "core/motion/internal/speed_segments.h"
 #include "core/motion/timing.h"
 
 namespace millwright::motion::internal {
@@ -14,10 +14,10 @@ public:
     [[nodiscard]] double time() const { return time_; }
     [[nodiscard]] double way() const { return way_; }
 
-    /// From the speed at the begin of a stretch to that at its end: up to `stretch.speed` and down again. A
-    /// begin that is faster brakes down to it.
-    void go(const Stretch& stretch, double start_speed, double end_speed);
-    /// Brakes at the stretch's acceleration from `start_speed` up to `end` of the way, to `end_speed`.
+    /// From the speed at the begin of a segment to that at its end: up to `speed_segment.speed` and down
+    /// again. A begin that is faster brakes down to it.
+    void go(const SpeedSegment& speed_segment, double start_speed, double end_speed);
+    /// Brakes at the segment's acceleration from `start_speed` up to `end` of the way, to `end_speed`.
     void brake(double start_speed, double end_speed, double acceleration, double end);
     void stand(double seconds);
 

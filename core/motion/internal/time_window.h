@@ -1,7 +1,7 @@
 // The duration of a way that is laid block by block: what is settled is counted and forgotten.
 #pragma once
 
-#include "core/motion/internal/road_builder.h"
+#include "core/motion/internal/axis_path_builder.h"
 
 #include <limits>
 
@@ -16,19 +16,19 @@ public:
                double filter_time);
 
     /// From the next corner on.
-    void set_rounding_bounds(const RoundingBounds& bounds) { road_.set_rounding_bounds(bounds); }
-    /// As RoadBuilder::add().
+    void set_rounding_bounds(const RoundingBounds& bounds) { builder_.set_rounding_bounds(bounds); }
+    /// As AxisPathBuilder::add().
     void add(const program::Block& block, double path_acceleration = std::numeric_limits<double>::infinity());
     /// Of all blocks, s, the last one ending at rest. Nothing is added after it.
     [[nodiscard]] double finish();
     /// Blocks that are in memory now.
-    [[nodiscard]] int block_count() const { return road_.block_count(); }
+    [[nodiscard]] int block_count() const { return builder_.block_count(); }
 
 private:
     static constexpr int least_window = 4096; ///< blocks
 
     double filter_time_;
-    RoadBuilder road_;
+    AxisPathBuilder builder_;
     int full_ = least_window;
     double way_ = 0.0, speed_ = 0.0; ///< up to which the time is counted
     bool moving_ = false;            ///< since the last rest

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/motion/internal/phases.h"
-#include "core/motion/internal/stretches.h"
+#include "core/motion/internal/speed_segments.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,14 +177,15 @@ Trajectory go_to_the_end_of(int last,
     expects(rates.feed > 0.0 && rates.feed <= highest_override && rates.rapid > 0.0 && rates.rapid <= 1.0,
             "an override is within the range of the machine");
     const Phase now = from.history.back();
-    Reach reach{now.way, now.way, now.way};
+    WayRange range{now.way, now.way, now.way};
     if (last >= 0) {
-        reach.filtered = std::min(now.way, path->segments[static_cast<std::size_t>(from.block)].start);
-        reach.end = path->segments[static_cast<std::size_t>(last)].end();
+        range.filtered = std::min(now.way, path->segments[static_cast<std::size_t>(from.block)].start);
+        range.end = path->segments[static_cast<std::size_t>(last)].end();
     }
-    const std::vector<Stretch> stretches = stretches_of(*path, reach, rates);
+    const std::vector<SpeedSegment> speed_segments = speed_segments_of(*path, range, rates);
     progress.check();
-    const std::vector<double> speeds = reached_speeds(stretches, allowed_speeds(*path, stretches), now.speed);
+    const std::vector<double> speeds =
+        reached_speeds(speed_segments, allowed_speeds(*path, speed_segments), now.speed);
     progress.check();
     Blocks blocks(*path, from);
     PhaseList list(std::move(from.history));
@@ -193,12 +194,12 @@ Trajectory go_to_the_end_of(int last,
         blocks.rest(list);
     }
     bool moving = now.speed > 0.0;
-    for (std::size_t n = 0; n < stretches.size(); ++n) {
+    for (std::size_t n = 0; n < speed_segments.size(); ++n) {
         if (n % steps_between_looks == 0) {
             progress.check();
         }
-        list.go(stretches[n], speeds[n], speeds[n + 1]);
-        moving = moving || stretches[n].end > stretches[n].begin;
+        list.go(speed_segments[n], speeds[n], speeds[n + 1]);
+        moving = moving || speed_segments[n].end > speed_segments[n].begin;
         if (moving && !(speeds[n + 1] > 0.0)) {
             list.stand(path->filter_time);
             blocks.rest(list);

@@ -25,7 +25,7 @@ enum class Quality {
 enum class StageKind {
     surface,
     trims,
-    workpiece,
+    cutting_setup,
     singular_points,
     grid,
     path,
@@ -64,7 +64,7 @@ struct StageWork {
     const Progress& progress;
 
     [[nodiscard]] const project::Project& project() const { return source.project; }
-    [[nodiscard]] const Workpiece& workpiece() const { return *plan.workpiece; }
+    [[nodiscard]] const CuttingSetup& cutting_setup() const { return *plan.cutting_setup; }
 };
 
 struct Stage {

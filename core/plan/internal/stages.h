@@ -10,8 +10,8 @@ namespace millwright::plan {
 /// With the time of the machine's file.
 [[nodiscard]] Source source_of(const project::Project& project, const Folders& folders);
 
-/// Whether workpiece_of() gives the same for both.
-[[nodiscard]] bool same_workpiece(const Source& then, const Source& now);
+/// Whether cutting_setup_of() gives the same for both.
+[[nodiscard]] bool same_cutting_setup(const Source& then, const Source& now);
 
 /// Each reads results of stages before it alone. `scope` says which are asked for beside the program.
 [[nodiscard]] std::vector<Stage> stages_of(const project::Project& project, const Scope& scope);

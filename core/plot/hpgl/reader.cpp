@@ -29,7 +29,7 @@ public:
     /// `settings` must outlive it. `evidence` may be null.
     Reading(std::string_view bytes,
             const std::filesystem::path& file,
-            const ReaderSettings& settings,
+            const HpglSettings& settings,
             LineEndEvidence* evidence = nullptr)
         : size_(static_cast<std::int64_t>(bytes.size())), problems_(file, settings),
           lexer_(bytes, arguments_of, problems_), run_(settings, problems_, lexer_, plot_),
@@ -205,10 +205,10 @@ private:
 };
 
 /// Settings that say what line ends mean, and in `notice` what that is, if the file leaves a choice.
-ReaderSettings with_line_ends(std::string_view bytes,
-                              const std::filesystem::path& file,
-                              ReaderSettings settings,
-                              std::optional<Diagnostic>& notice) {
+HpglSettings with_line_ends(std::string_view bytes,
+                            const std::filesystem::path& file,
+                            HpglSettings settings,
+                            std::optional<Diagnostic>& notice) {
     if (settings.line_ends != LineEnds::automatic) {
         return settings;
     }
@@ -217,7 +217,7 @@ ReaderSettings with_line_ends(std::string_view bytes,
         return settings;
     }
     LineEndEvidence evidence(bytes);
-    ReaderSettings looking = settings;
+    HpglSettings looking = settings;
     looking.strictness = Strictness::tolerant;
     static_cast<void>(Reading(bytes, file, looking, &evidence).read());
     if (evidence.count() == 0) {
@@ -248,13 +248,13 @@ ReaderSettings with_line_ends(std::string_view bytes,
 } // namespace
 } // namespace internal
 
-Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings) {
+Plot read_hpgl(std::string_view bytes, const std::filesystem::path& file, const HpglSettings& settings) {
     if (auto fault = wide_text_fault(bytes, file)) {
         fault->place = {.file = file, .byte = 0};
         throw Error(std::move(*fault));
     }
     std::optional<Diagnostic> notice;
-    const ReaderSettings chosen = internal::with_line_ends(bytes, file, settings, notice);
+    const HpglSettings chosen = internal::with_line_ends(bytes, file, settings, notice);
     Plot plot = internal::Reading(bytes, file, chosen).read();
     plot.line_ends = std::move(notice);
     return plot;
@@ -300,7 +300,7 @@ std::string read_pipe(const std::filesystem::path& file) {
 
 } // namespace
 
-Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings) {
+Plot read_hpgl_file(const std::filesystem::path& file, const HpglSettings& settings) {
     std::error_code none;
     if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none) &&
         !std::filesystem::is_directory(file, none)) {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/plot/hpgl/settings.h"
+#include "core/plot/hpgl/hpgl_settings.h"
 #include "core/plot/strokes.h"
 
 #include <cstdint>
@@ -53,13 +53,13 @@ struct Plot {
 /// reading strictly, and always for more points than `settings.most_points`, for text in UTF-16, and where
 /// the file does not show what its line ends between two digits mean. A byte order mark of UTF-8 is skipped.
 [[nodiscard]] Plot
-read_hpgl(std::string_view bytes, const std::filesystem::path& file, const ReaderSettings& settings = {});
+read_hpgl(std::string_view bytes, const std::filesystem::path& file, const HpglSettings& settings = {});
 
 /// What a person should know of a plot that was read from `file`: what is wrong, how much more of it there
 /// is, and each command that is left out, with how often and why.
 [[nodiscard]] std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file);
 
 /// Reads the file itself. Throws Error if it cannot be read, or is larger than 1 GiB, too.
-[[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const ReaderSettings& settings = {});
+[[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const HpglSettings& settings = {});
 
 } // namespace millwright::plot

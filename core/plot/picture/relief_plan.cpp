@@ -2,7 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "core/plot/standing_tabs.h"
+#include "core/plot/tab_width.h"
 
 #include <fmt/format.h>
 
@@ -56,7 +56,7 @@ CutPath frame_path(const HeightField& field, const ReliefPlan& plan) {
     level.tabs = plan.tabs;
     level.tabs.height += below; // so that they stand as high above the underside
     CutSettings settings;
-    settings.levels = with_standing_tabs({level}, relief.tip.diameter);
+    settings.levels = with_tab_widths({level}, relief.tip.diameter);
     settings.safe_height = relief.safe_height;
     settings.change_position.z() = std::max(settings.change_position.z(), settings.safe_height);
     const Stroke around = frame(field, relief.tip.diameter, plan.frame_margin);

@@ -3,7 +3,7 @@
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/guard_rules.h"
 #include "core/pmac/driver/pmac_file.h"
-#include "core/pmac/emulator/internal/program.h"
+#include "core/pmac/emulator/internal/stored_program.h"
 #include "core/pmac/emulator/pmac_emulator.h"
 
 #include <fmt/format.h>

@@ -93,9 +93,9 @@ bool Clearance::clear(const MachineModel& machine, const AxisPositions& a, const
     if (along_tool_axis(machine, a, b)) {
         return true;
     }
-    constexpr double steps_a_height = 2.0;
+    constexpr double steps_per_height = 2.0;
     constexpr double most = 10'000.0;
-    const double wanted = way_length(machine, a, b) / height_ * steps_a_height;
+    const double wanted = way_length(machine, a, b) / height_ * steps_per_height;
     const int count = static_cast<int>(std::clamp(std::ceil(wanted), 8.0, most));
     for (int k = 0; k <= count; ++k) {
         const double t = static_cast<double>(k) / count;

@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <cmath>
 #include <limits>

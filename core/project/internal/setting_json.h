@@ -3,7 +3,7 @@
 
 #include "core/base/json.h"
 #include "core/geometry/vectors.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -29,7 +29,7 @@ void expect_same_bits(const Arithmetic& arithmetic, const Sequence& sequence, Mo
                       mode == Mode::rotation ? kernel.rotated(v, overflow) : kernel.vectored(v, overflow));
         }
     }
-    EXPECT_EQ(results, 500 - pipeline.latency()); // one a clock behind the fill
+    EXPECT_EQ(results, 500 - pipeline.latency()); // one per clock behind the fill
 }
 
 TEST(Pipeline, GivesTheBitsOfTheIterationOncePerClock) {

@@ -37,7 +37,7 @@ cordic::Processor run(const CordicProgram& program) {
     return processor;
 }
 
-/// The instructions alone, one a line.
+/// The instructions alone, one per line.
 std::string instructions(const CordicProgram& program) {
     std::string all;
     std::string line;

@@ -2,14 +2,14 @@
 // the programs that run on it. The folders' own tests go deeper.
 #include "core/base/units.h"
 #include "core/cordic/disassembler.h"
-#include "core/cordic/fold.h"
 #include "core/cordic/interpolation.h"
 #include "core/cordic/pipeline.h"
 #include "core/cordic/processor.h"
+#include "core/cordic/quadrant_fold.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
 #include "core/cordic_control/plc_assembler.h"
-#include "core/cordic_control/sewing.h"
+#include "core/cordic_control/stitch_timing.h"
 #include "core/cordic_control/supervised_run.h"
 #include "core/cordic_machine/cordic_program.h"
 #include "core/cordic_study/comparison.h"
@@ -231,7 +231,7 @@ TEST(Thesis, ComparisonHasTheNumbersOfItsSpeedExperiment) {
 
 TEST(Thesis, SewingMissesItsDeadlineOnlyWhereTheComputationTakesLongerThanAStitch) {
     const std::array<cordic::Stitch, 3> stitches{{{1e-3, 3.0}, {25e-3, 3.0}, {9.25e-6, 3.0}}};
-    const auto run = cordic::sew({}, stitches);
+    const auto run = cordic::time_stitches({}, stitches);
     EXPECT_EQ(run.late_computations, 1);
     EXPECT_EQ(run.late, std::vector<std::size_t>{1});
     EXPECT_EQ(run.late_moves, 0);

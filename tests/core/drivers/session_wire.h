@@ -5,7 +5,7 @@
 #include "core/base/clock.h"
 #include "core/base/error.h"
 #include "core/drivers/driver_status.h"
-#include "core/drivers/internal/ahead.h"
+#include "core/drivers/internal/send_window.h"
 #include "core/links/faults.h"
 
 #include <functional>
@@ -96,13 +96,13 @@ private:
 
     /// As the driver's thread does.
     void ask_ahead() {
-        drivers::internal::Ahead* const ahead = session.ahead();
-        for (bool more = ahead != nullptr; more;) {
-            const auto question = ahead->question();
+        drivers::internal::SendWindow* const window = session.send_window();
+        for (bool more = window != nullptr; more;) {
+            const auto question = window->question();
             const int allowed = question ? question->ask(question->wanted) : 0;
             more = question && allowed >= question->wanted;
             if (question) {
-                ahead->answer(*question, allowed);
+                window->answer(*question, allowed);
                 session.tick(now);
             }
         }

@@ -78,7 +78,7 @@ TEST(Preview, KeepsEachMoveWithItsPlaceKindAndLine) {
     std::uniform_real_distribution<double> place(-100.0, 100.0);
     for (int n = 0; n < moves; ++n) {
         const double x = place(random), y = place(random), z = place(random);
-        const PathPoint& point = got.path.point(n + 1);
+        const PreviewPoint& point = got.path.point(n + 1);
         ASSERT_LT((point.position() - Vec3(x, y, z)).norm(), 1e-3);
         ASSERT_EQ(point.kind(), n % 5 == 0 ? PathKind::rapid : PathKind::feed);
         ASSERT_EQ(got.execution.line_of(point.step()), n + 2);

@@ -26,7 +26,7 @@ ChainSettings small_chain() {
     settings.tracks.lattice = 60;
     settings.tracks.polish_sweeps = 3;
     settings.tracks.gap_allowance = 2.0; // the models' gap is between nodes of equal number
-    settings.candidates_a_gap = 4;
+    settings.candidates_per_gap = 4;
     settings.first_descent = 20;
     settings.later_descents = 10;
     return settings;
@@ -35,16 +35,16 @@ ChainSettings small_chain() {
 TEST(ChainOptimiser, EachLinkCutsTheErrorOfASpike) {
     const SpikeErrorModel model({.width = 0.02});
     ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, small_chain());
-    const ImproverState state = run(chain, {});
+    const OptimiserState state = run(chain, {});
     EXPECT_LT(state.of_best.mean, 0.85 * state.start.mean);
     EXPECT_LT(state.of_best.max, 0.3 * state.start.max);
-    EXPECT_EQ(state.status, ImproverStatus::converged);
+    EXPECT_EQ(state.status, OptimiserStatus::converged);
     // start, track optimiser, chosen tracks, exponents 2, 4, 6, 8, 16, 32
-    ASSERT_EQ(state.links.size(), 9U);
-    EXPECT_LT(state.links[1].reached.max, state.links[0].reached.max);
-    EXPECT_LT(state.links[2].reached.max, state.links[0].reached.max);
-    EXPECT_LT(state.links[3].reached.lmean, state.links[2].reached.lmean);
-    EXPECT_LT(state.links[8].reached.max, state.links[3].reached.max);
+    ASSERT_EQ(state.stages.size(), 9U);
+    EXPECT_LT(state.stages[1].reached.max, state.stages[0].reached.max);
+    EXPECT_LT(state.stages[2].reached.max, state.stages[0].reached.max);
+    EXPECT_LT(state.stages[3].reached.lmean, state.stages[2].reached.lmean);
+    EXPECT_LT(state.stages[8].reached.max, state.stages[3].reached.max);
 }
 
 /// A spike whose error is smaller between the tracks of a start than on them, where the tool axis turns more.
@@ -65,21 +65,21 @@ private:
     int gaps_;
 };
 
-bool has_link(const ImproverState& state, std::string_view name, bool accepted) {
-    return std::ranges::any_of(state.links, [&](const ImproverLink& link) {
-        return link.name == name && link.refused.empty() == accepted;
+bool has_stage(const OptimiserState& state, std::string_view name, bool accepted) {
+    return std::ranges::any_of(state.stages, [&](const ChainStage& stage) {
+        return stage.name == name && stage.refused.empty() == accepted;
     });
 }
 
 TEST(ChainOptimiser, PricesTheAxisWhereTheBestTracksTurnItTooFar) {
     const TwistedErrorModel model(7);
     ChainSettings settings = small_chain();
-    settings.candidates_a_gap = 8;
+    settings.candidates_per_gap = 8;
     ChainOptimiser chain(model, Grid::uniform(8, 12), along_v, settings);
-    const ImproverState state = run(chain, {});
-    EXPECT_TRUE(has_link(state, "best tracks and nodes", false));
-    EXPECT_TRUE(has_link(state, "best tracks and nodes, with axis weight", true));
-    EXPECT_EQ(state.links.size(), 10U);
+    const OptimiserState state = run(chain, {});
+    EXPECT_TRUE(has_stage(state, "best tracks and nodes", false));
+    EXPECT_TRUE(has_stage(state, "best tracks and nodes, with axis weight", true));
+    EXPECT_EQ(state.stages.size(), 10U);
     EXPECT_LE(state.of_best.axis_max, state.start.axis_max + 1e-8);
     EXPECT_LT(state.of_best.mean, 0.9 * state.start.mean);
 }
@@ -89,9 +89,9 @@ TEST(ChainOptimiser, EndsWithTheNameOfTheLinkWhoseGridIsKept) {
     ChainSettings settings = small_chain();
     settings.later_descents = 0; // so that the descents end before they begin
     ChainOptimiser chain(model, Grid::uniform(12, 15), along_v, settings);
-    const ImproverState state = run(chain, {});
-    ASSERT_EQ(state.links.back().name, "all nodes at once, exponent 2");
-    ASSERT_LT(state.links.back().of_best.max, state.links[2].of_best.max);
+    const OptimiserState state = run(chain, {});
+    ASSERT_EQ(state.stages.back().name, "all nodes at once, exponent 2");
+    ASSERT_LT(state.stages.back().of_best.max, state.stages[2].of_best.max);
     EXPECT_EQ(state.note, "The best grid of the stage \"all nodes at once, exponent 2\" is kept");
 }
 
@@ -100,8 +100,8 @@ TEST(ChainOptimiser, SaysThatNoLinkWasTakenAndWhy) {
     ChainSettings settings = small_chain();
     settings.least_jacobian = 1.0; // which only the uniform grid has
     ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, settings);
-    const ImproverState state = run(chain, {});
-    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    const OptimiserState state = run(chain, {});
+    EXPECT_EQ(state.status, OptimiserStatus::no_gain);
     EXPECT_EQ(state.note, "No stage was accepted, so the start grid is kept: a nearly folded cell");
 }
 
@@ -112,7 +112,7 @@ TEST(ChainOptimiser, NeverReportsAGridThatBreaksThePromise) {
         ChainSettings settings = small_chain();
         settings.first_descent = settings.later_descents = 3;
         ChainOptimiser chain(model, start, along_v, settings);
-        const ImproverState state = run(chain, {});
+        const OptimiserState state = run(chain, {});
         const ErrorSummary was = summary(measure(model, start, along_v, fine));
         const ErrorSummary is = summary(measure(model, state.best, along_v, fine));
         EXPECT_LE(is.max, was.max + 1e-6);
@@ -128,13 +128,13 @@ TEST(ChainOptimiser, CancelledItStandsWhereItStood) {
     ChainOptimiser chain(model, Grid::uniform(8, 9), along_v, small_chain());
     chain.advance({});
     chain.advance({});
-    const ImproverState before = chain.state();
+    const OptimiserState before = chain.state();
     std::stop_source stop;
     stop.request_stop();
     EXPECT_THROW(chain.advance(Progress([](const Progress::Report&) {}, stop.get_token())), Cancelled);
     EXPECT_EQ(chain.state().best, before.best);
     EXPECT_EQ(chain.state().iteration, before.iteration);
-    const ImproverState after = run(chain, {});
+    const OptimiserState after = run(chain, {});
     EXPECT_LE(after.of_best.max, before.of_best.max);
 }
 
@@ -145,7 +145,7 @@ TEST(ChainOptimiser, RefusesSettingsThatMakeNoSense) {
         change(settings);
         EXPECT_THROW(ChainOptimiser(model, Grid::uniform(5, 5), along_v, settings), Defect);
     };
-    refused([](ChainSettings& s) { s.candidates_a_gap = 0; });
+    refused([](ChainSettings& s) { s.candidates_per_gap = 0; });
     refused([](ChainSettings& s) { s.widest_gap = 0.9; });
     refused([](ChainSettings& s) { s.narrowest_gap = 1.1; });
     refused([](ChainSettings& s) { s.exponents = {0.0}; });

@@ -40,12 +40,12 @@ TEST(EllipticAdaptation, CutsTheMeanErrorOfAPole) {
         EllipticAdaptationSettings settings;
         settings.boundary = boundary;
         EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
-        const ImproverState state = run(adaptation, Progress());
+        const OptimiserState state = run(adaptation, Progress());
         EXPECT_LT(finely(model, state.best).mean, 0.93 * finely(model, Grid::uniform(16, 16)).mean);
         EXPECT_LE(state.of_best.axis_max, state.start.axis_max);
         EXPECT_GT(state.best.min_jacobian(), 0.0);
         EXPECT_GT(state.round, 1);
-        EXPECT_NE(state.status, ImproverStatus::no_gain);
+        EXPECT_NE(state.status, OptimiserStatus::no_gain);
     }
 }
 
@@ -56,10 +56,10 @@ TEST(EllipticAdaptation, CutsTheMeanErrorOfAPoleByMultigrid) {
         settings.boundary = boundary;
         settings.method = EllipticMethod::multigrid;
         EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
-        const ImproverState state = run(adaptation, Progress());
+        const OptimiserState state = run(adaptation, Progress());
         EXPECT_LT(finely(model, state.best).mean, 0.93 * finely(model, Grid::uniform(16, 16)).mean);
         EXPECT_GT(state.best.min_jacobian(), 0.0);
-        EXPECT_NE(state.status, ImproverStatus::no_gain);
+        EXPECT_NE(state.status, OptimiserStatus::no_gain);
     }
 }
 
@@ -108,7 +108,7 @@ TEST(EllipticAdaptation, TellsFineFiguresOfItsStartAndItsEnd) {
     EllipticAdaptation adaptation(model, start, quick());
     ASSERT_TRUE(adaptation.advance(Progress()));
     EXPECT_EQ(adaptation.state().start.mean, finely(model, start).mean);
-    const ImproverState state = run(adaptation, Progress());
+    const OptimiserState state = run(adaptation, Progress());
     EXPECT_EQ(state.start.mean, finely(model, start).mean);
     EXPECT_EQ(state.of_best.mean, finely(model, state.best).mean);
     EXPECT_EQ(state.now.mean, finely(model, Grid(state.current)).mean);
@@ -132,8 +132,8 @@ TEST(EllipticAdaptation, StaysWhereItIsWhenTheErrorIsEvenAlready) {
     const PoleErrorModel model({.radius = 0.0, .background = 20.0});
     const Grid start = Grid::uniform(10, 10);
     EllipticAdaptation adaptation(model, start, quick());
-    const ImproverState state = run(adaptation, Progress());
-    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    const OptimiserState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, OptimiserStatus::no_gain);
     EXPECT_EQ(state.best, start);
     EXPECT_EQ(state.of_best.mean, state.start.mean);
 }
@@ -142,7 +142,7 @@ TEST(EllipticAdaptation, HasNothingToDoWithoutAnError) {
     const PoleErrorModel model({.radius = 0.0, .background = 0.0});
     EllipticAdaptation adaptation(model, Grid::uniform(10, 10), quick());
     EXPECT_FALSE(adaptation.advance(Progress()));
-    EXPECT_EQ(adaptation.state().status, ImproverStatus::no_gain);
+    EXPECT_EQ(adaptation.state().status, OptimiserStatus::no_gain);
     EXPECT_EQ(adaptation.state().iteration, 0);
     EXPECT_FALSE(adaptation.advance(Progress()));
 }
@@ -153,7 +153,7 @@ TEST(EllipticAdaptation, DoesNotMoveAFixedBoundaryByOneBit) {
     settings.boundary = Boundary::fixed;
     const Grid start = Grid::uniform(12, 15);
     EllipticAdaptation adaptation(model, start, settings);
-    const ImproverState state = run(adaptation, Progress());
+    const OptimiserState state = run(adaptation, Progress());
     ASSERT_NE(state.current, start.array());
     for (const NodeArray& nodes : {state.best.array(), state.current}) {
         for (int i = 0; i < 12; ++i) {
@@ -178,8 +178,8 @@ TEST(EllipticAdaptation, LessensTheAdaptationWhenTheReferenceSolverFolds) {
     EXPECT_EQ(adaptation.state().iteration, 1);
     EXPECT_NE(adaptation.state().note.find("folded at LV = 100"), std::string::npos);
     EXPECT_EQ(adaptation.state().current, Grid::uniform(25, 25).array());
-    const ImproverState state = run(adaptation, Progress());
-    EXPECT_NE(state.status, ImproverStatus::folded);
+    const OptimiserState state = run(adaptation, Progress());
+    EXPECT_NE(state.status, OptimiserStatus::folded);
     EXPECT_EQ(adaptation.adaptation(), 10.0);
     EXPECT_THAT(state.warning,
                 testing::StartsWith("LV = 10 was used instead of 100: a cell folded at LV = 100."));
@@ -199,7 +199,7 @@ TEST(EllipticAdaptation, CountsTheIterationsBeforeANewStartEverywhere) {
     (void)adaptation.advance(Progress());
     EXPECT_EQ(adaptation.state().iteration, 21);
     EXPECT_THAT(adaptation.state().note, testing::StartsWith("Round 1, iteration 21: "));
-    const ImproverState state = run(adaptation, Progress());
+    const OptimiserState state = run(adaptation, Progress());
     EXPECT_EQ(state.iteration, 21);
     EXPECT_EQ(std::ssize(state.norms), 21);
     EXPECT_THAT(state.warning, testing::HasSubstr("round 1 ended after 20 iterations with a residual"));
@@ -214,7 +214,7 @@ TEST(EllipticAdaptation, SaysWhereTheSolverOfTheLastRoundDidNotConverge) {
         settings.max_rounds = 2;
         settings.max_iterations = 1;
         EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings);
-        const ImproverState cut_off = run(adaptation, Progress());
+        const OptimiserState cut_off = run(adaptation, Progress());
         ASSERT_GT(cut_off.norm, settings.tolerance);
         EXPECT_THAT(cut_off.warning,
                     testing::MatchesRegex("The solver did not converge: round 2 ended after 1 iteration with "
@@ -232,14 +232,14 @@ TEST(EllipticAdaptation, TheHarmonicMapHasNoLv) {
     settings.max_iterations = 3;
     settings.max_rounds = 1;
     EllipticAdaptation map(model, Grid::uniform(8, 8), settings);
-    const ImproverState state = run(map, Progress());
+    const OptimiserState state = run(map, Progress());
     ASSERT_EQ(state.norms.size(), 3U);
     EXPECT_TRUE(std::isnan(state.norms.front().adaptation));
     settings.method = EllipticMethod::minimiser;
     EllipticAdaptation elliptic(model, Grid::uniform(8, 8), settings);
     EXPECT_EQ(run(elliptic, Progress()).norms.front().adaptation, settings.functional.adaptation);
     EllipticAdaptation broken(model, Grid::uniform(6, 6), harmonic_settings(), broken_weight(infinity));
-    const ImproverState failed = run(broken, Progress());
+    const OptimiserState failed = run(broken, Progress());
     EXPECT_EQ(failed.note, "Stopped: a value is not finite");
     EXPECT_EQ(failed.warning, "") << "less LV would not help";
 }
@@ -251,8 +251,8 @@ TEST(EllipticAdaptation, GivesUpAsFoldedWhenNothingElseHelps) {
     settings.functional.adaptation = 1e6;
     const Grid start = Grid::uniform(25, 25);
     EllipticAdaptation adaptation(model, start, settings, weight_w1());
-    const ImproverState state = run(adaptation, Progress());
-    EXPECT_EQ(state.status, ImproverStatus::folded);
+    const OptimiserState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, OptimiserStatus::folded);
     EXPECT_EQ(state.best, start);
     EXPECT_EQ(state.iteration, 4);
     EXPECT_NE(state.note.find("folded"), std::string::npos);
@@ -261,7 +261,7 @@ TEST(EllipticAdaptation, GivesUpAsFoldedWhenNothingElseHelps) {
 TEST(EllipticAdaptation, ReportsAWeightThatIsNotFinite) {
     const PoleErrorModel model({});
     EllipticAdaptation adaptation(model, Grid::uniform(6, 6), quick(), broken_weight(infinity));
-    EXPECT_EQ(run(adaptation, Progress()).status, ImproverStatus::not_finite);
+    EXPECT_EQ(run(adaptation, Progress()).status, OptimiserStatus::not_finite);
 }
 
 TEST(EllipticAdaptation, FollowsAWeightThatAPersonGave) {
@@ -270,8 +270,8 @@ TEST(EllipticAdaptation, FollowsAWeightThatAPersonGave) {
     EllipticAdaptationSettings settings;
     settings.max_iterations = 40; // not enough, so a second round goes on
     EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings, weight);
-    const ImproverState state = run(adaptation, Progress());
-    EXPECT_EQ(state.status, ImproverStatus::converged);
+    const OptimiserState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, OptimiserStatus::converged);
     EXPECT_GT(state.round, 1);
     EXPECT_LE(state.norm, settings.tolerance);
     EXPECT_LT(state.of_best.mean, state.start.mean);
@@ -293,7 +293,7 @@ TEST(EllipticAdaptation, CountsNodesOfTheStartGridInEveryRound) {
     settings.max_iterations = 5;
     settings.max_rounds = 4;
     EllipticAdaptation adaptation(model, Grid::uniform(16, 16), settings, expression_weight("u-0.5", 16, 16));
-    const ImproverState end = run(adaptation, Progress());
+    const OptimiserState end = run(adaptation, Progress());
     EXPECT_GT(end.round, 1);
     EXPECT_NE(end.warning.find("not positive at 128 of 256 nodes of the start grid"), std::string::npos)
         << end.warning;
@@ -305,7 +305,7 @@ TEST(EllipticAdaptation, WarnsOfAWeightOfTheErrorThatIsNotPositive) {
     EllipticAdaptation adaptation(
         model, Grid::uniform(25, 25), quick(), [](const WeightPtr&) { return weight_w4(); });
     EXPECT_EQ(adaptation.state().warning, "");
-    const ImproverState end = run(adaptation, Progress());
+    const OptimiserState end = run(adaptation, Progress());
     EXPECT_NE(end.warning.find("not positive at"), std::string::npos) << end.note;
 }
 
@@ -313,7 +313,7 @@ TEST(EllipticAdaptation, WarnsOfAWeightOfTheErrorThatIsNotPositive) {
 TEST(EllipticAdaptation, DoesAsManyIterationsAStepAsAskedWithTheSameResult) {
     const PoleErrorModel model({});
     EllipticAdaptationSettings settings = quick();
-    std::vector<ImproverState> ends;
+    std::vector<OptimiserState> ends;
     for (const int step : {1, 7, 10, 1000}) {
         settings.iterations_per_step = step;
         EllipticAdaptation adaptation(model, Grid::uniform(12, 12), settings);
@@ -322,7 +322,7 @@ TEST(EllipticAdaptation, DoesAsManyIterationsAStepAsAskedWithTheSameResult) {
         EXPECT_EQ(adaptation.state().current.rows, 12);
         ends.push_back(run(adaptation, Progress()));
     }
-    for (const ImproverState& end : ends) {
+    for (const OptimiserState& end : ends) {
         EXPECT_EQ(end.best, ends.front().best);
         EXPECT_EQ(end.iteration, ends.front().iteration);
     }
@@ -412,8 +412,8 @@ TEST(EllipticAdaptation, StartsFromMovesOutOfReach) {
     };
     const HalfReached model;
     EllipticAdaptation adaptation(model, Grid::uniform(8, 8), quick());
-    const ImproverState state = run(adaptation, Progress());
-    EXPECT_EQ(state.status, ImproverStatus::no_gain);
+    const OptimiserState state = run(adaptation, Progress());
+    EXPECT_EQ(state.status, OptimiserStatus::no_gain);
     EXPECT_EQ(state.start.mean, infinity);
 }
 
@@ -462,7 +462,7 @@ TEST(EllipticAdaptation, KeepsTheNormOfEveryIterationAndWhatTheEquationsLeave) {
     settings.max_rounds = 2;
     EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1());
     EXPECT_FALSE(adaptation.residuals()) << "nothing was iterated";
-    const ImproverState state = run(adaptation, Progress());
+    const OptimiserState state = run(adaptation, Progress());
     ASSERT_EQ(state.norms.size(), 70U);
     EXPECT_EQ(state.iteration, 70);
     const double first[]{0.4045922466, 0.328164831, 0.2664142164, 0.2161995387, 0.175208779};
@@ -493,7 +493,7 @@ TEST(EllipticAdaptation, NormsTellWhereTheSolverFellBack) {
     settings.max_iterations = 12;
     settings.max_rounds = 1;
     EllipticAdaptation adaptation(model, Grid::uniform(25, 25), settings, weight_w1());
-    const ImproverState state = run(adaptation, Progress());
+    const OptimiserState state = run(adaptation, Progress());
     ASSERT_EQ(state.norms.size(), 13U);
     EXPECT_NEAR(state.norms[0].norm, 189.082913, 1e-4);
     EXPECT_DOUBLE_EQ(state.norms[0].adaptation, 100.0);

@@ -16,7 +16,7 @@ namespace {
 
 using test::along_v;
 
-ImproverState
+OptimiserState
 redistributed(const ErrorModel& model, const Grid& start, RedistributionSettings settings = {}) {
     settings.gap_allowance = 2.0; // the models' gap is between nodes of equal number
     Redistribution redistribution(model, start, along_v, settings);
@@ -25,8 +25,8 @@ redistributed(const ErrorModel& model, const Grid& start, RedistributionSettings
 
 TEST(Redistribution, CutsTheErrorOfASpikeThatMovesCanSee) {
     const SpikeErrorModel model({.width = 0.1});
-    const ImproverState state = redistributed(model, Grid::uniform(12, 20));
-    EXPECT_EQ(state.status, ImproverStatus::converged);
+    const OptimiserState state = redistributed(model, Grid::uniform(12, 20));
+    EXPECT_EQ(state.status, OptimiserStatus::converged);
     EXPECT_LT(state.of_best.mean, 0.98 * state.start.mean);
     EXPECT_LT(state.of_best.max, state.start.max);
     EXPECT_GT(state.best.min_jacobian(), 0.0);
@@ -44,7 +44,7 @@ TEST(Redistribution, HasAMonitorOfMeanOneThatIsLargeAtTheSpike) {
 TEST(Redistribution, IsNeverWorseThanTheStart) {
     for (unsigned seed = 1; seed <= 12; ++seed) {
         const test::RandomErrorModel model(seed);
-        const ImproverState state = redistributed(model, Grid::uniform(6, 9));
+        const OptimiserState state = redistributed(model, Grid::uniform(6, 9));
         EXPECT_LE(state.of_best.mean, state.start.mean);
         EXPECT_LE(state.of_best.max, state.start.max);
         EXPECT_LE(state.of_best.axis_max, state.start.axis_max);

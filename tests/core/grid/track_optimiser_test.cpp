@@ -27,7 +27,8 @@ TrackSettings small_tracks() {
     return settings;
 }
 
-ImproverState optimised(const ErrorModel& model, const Grid& start, TrackSettings settings = small_tracks()) {
+OptimiserState
+optimised(const ErrorModel& model, const Grid& start, TrackSettings settings = small_tracks()) {
     TrackOptimiser optimiser(model, start, along_v, settings);
     return run(optimiser, {});
 }
@@ -67,11 +68,11 @@ private:
 
 TEST(TrackOptimiser, CutsTheErrorOfASpike) {
     const SpikeErrorModel model({.width = 0.02});
-    const ImproverState state = optimised(model, Grid::uniform(12, 15));
+    const OptimiserState state = optimised(model, Grid::uniform(12, 15));
     EXPECT_LT(state.of_best.mean, 0.9 * state.start.mean);
     EXPECT_LT(state.of_best.max, 0.4 * state.start.max);
     EXPECT_LT(state.of_best.lmean, state.start.lmean);
-    EXPECT_NE(state.status, ImproverStatus::no_gain);
+    EXPECT_NE(state.status, OptimiserStatus::no_gain);
     EXPECT_GT(state.best.min_jacobian(), 0.0);
 }
 
@@ -83,7 +84,7 @@ TEST(TrackOptimiser, NeverReportsAGridWorseThanTheStart) {
         const Grid start = Grid::uniform(5, 7);
         TrackSettings settings = small_tracks();
         settings.gap_allowance = 0.3;
-        const ImproverState state = optimised(model, start, settings);
+        const OptimiserState state = optimised(model, start, settings);
         const auto moves = measure(model, state.best, along_v, fine);
         const ErrorSummary found = summary(moves);
         const ErrorSummary before = summary(measure(model, start, along_v, fine));
@@ -123,13 +124,13 @@ TEST(TrackOptimiser, IsWatchedStepByStepAndCostsNoStepTooMany) {
     int sweeps = 0;
     while (optimiser.advance({})) {
         ++sweeps;
-        EXPECT_EQ(optimiser.state().status, ImproverStatus::running);
+        EXPECT_EQ(optimiser.state().status, OptimiserStatus::running);
         EXPECT_FALSE(optimiser.state().note.empty());
     }
     EXPECT_EQ(sweeps, 4);
     EXPECT_EQ(optimiser.state().iteration, 5);
-    EXPECT_EQ(optimiser.state().status, ImproverStatus::iteration_limit);
-    const ImproverState last = optimiser.state();
+    EXPECT_EQ(optimiser.state().status, OptimiserStatus::iteration_limit);
+    const OptimiserState last = optimiser.state();
     EXPECT_FALSE(optimiser.advance({}));
     EXPECT_EQ(optimiser.state().best, last.best);
 }
@@ -142,10 +143,10 @@ protected:
 TEST_F(TrackOptimiserThreads, GivesTheSameBytesOnAnyNumberOfThreads) {
     const SpikeErrorModel model({});
     set_thread_count(1);
-    const ImproverState one = optimised(model, Grid::uniform(8, 10));
+    const OptimiserState one = optimised(model, Grid::uniform(8, 10));
     for (const int threads : {2, 7}) {
         set_thread_count(threads);
-        const ImproverState many = optimised(model, Grid::uniform(8, 10));
+        const OptimiserState many = optimised(model, Grid::uniform(8, 10));
         EXPECT_EQ(many.best, one.best) << threads;
         EXPECT_EQ(many.of_best.mean, one.of_best.mean);
         EXPECT_EQ(many.norm, one.norm);
@@ -162,7 +163,7 @@ TEST(TrackOptimiser, LeavesItsStateWhenAStepIsCancelledAndGoesOnAfterwards) {
     const Progress cancelled(nullptr, stop.get_token());
     bool more = true;
     while (more) {
-        const ImproverState before = interrupted.state();
+        const OptimiserState before = interrupted.state();
         EXPECT_THROW((void)interrupted.advance(cancelled), Cancelled);
         EXPECT_EQ(interrupted.state().current, before.current);
         EXPECT_EQ(interrupted.state().best, before.best);
@@ -192,7 +193,7 @@ TEST(TrackOptimiser, IsCancelledInTheMiddleOfAStep) {
 TEST(TrackOptimiser, LeavesTracksThatCannotBeReached) {
     const OutOfReach model;
     const Grid start = Grid::uniform(6, 8);
-    const ImproverState state = optimised(model, start);
+    const OptimiserState state = optimised(model, start);
     for (int j = 0; j < 8; ++j) {
         EXPECT_EQ(state.best.node(5, j), start.node(5, j));
     }
@@ -205,13 +206,13 @@ TEST(TrackOptimiser, SaysSoWhenThereIsNothingToGain) {
     settings.lattice = 9;
     settings.longest_move = 1.5;
     settings.shortest_move = 0.5;
-    const ImproverState state = optimised(model, Grid::uniform(4, 2), settings); // a move a track: its ends
+    const OptimiserState state = optimised(model, Grid::uniform(4, 2), settings); // a move a track: its ends
     EXPECT_EQ(state.best, Grid::uniform(4, 2));
     EXPECT_EQ(state.of_best.mean, state.start.mean);
 
     settings.gap_allowance = 0.0; // and here the tracks slide apart
-    const ImproverState kept = optimised(model, Grid::uniform(2, 9), settings);
-    EXPECT_EQ(kept.status, ImproverStatus::no_gain);
+    const OptimiserState kept = optimised(model, Grid::uniform(2, 9), settings);
+    EXPECT_EQ(kept.status, OptimiserStatus::no_gain);
     EXPECT_EQ(kept.best, Grid::uniform(2, 9));
 }
 
@@ -220,7 +221,7 @@ TEST(TrackOptimiser, QuickSettingsTakeTwoSteps) {
     TrackOptimiser optimiser(model, Grid::uniform(6, 9), along_v, quick_track_settings());
     EXPECT_TRUE(optimiser.advance({}));
     EXPECT_FALSE(optimiser.advance({}));
-    EXPECT_EQ(optimiser.state().status, ImproverStatus::converged);
+    EXPECT_EQ(optimiser.state().status, OptimiserStatus::converged);
     EXPECT_LT(optimiser.state().of_best.mean, optimiser.state().start.mean);
 }
 

@@ -17,14 +17,14 @@ using testing::Not;
 
 Job traced(const std::string& program, double z = 0.0) {
     const Job job = text_job(program, "part.ngc");
-    SurveySettings settings;
+    ProgramCheckSettings settings;
     settings.dialect = gcode::Dialect::grbl;
     settings.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
     settings.start = kinematics::AxisPositions::Zero(3);
     settings.start[2] = z;
     settings.offsets = {{"G54", kinematics::AxisPositions::Zero(3)}};
     settings.offsets[0].value[0] = 100.0;
-    return box_trace_job(job, survey(program, "part.ngc", settings));
+    return box_trace_job(job, check_program(program, "part.ngc", settings));
 }
 
 constexpr const char* disc =

@@ -44,16 +44,16 @@ drivers::MachineLimits homed() {
     return limits;
 }
 
-Survey surveyed(const Job& job) {
+ProgramCheck checked(const Job& job) {
     const drivers::DriverStatus status = machine_at_rest();
-    return survey(controller_text(job),
-                  "test.ngc",
-                  {.dialect = gcode::Dialect::grbl,
-                   .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
-                   .start = status.position,
-                   .offsets = offsets_of(),
-                   .modes = status.modes,
-                   .watched = watched_lines(job)});
+    return check_program(controller_text(job),
+                         "test.ngc",
+                         {.dialect = gcode::Dialect::grbl,
+                          .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
+                          .start = status.position,
+                          .offsets = offsets_of(),
+                          .modes = status.modes,
+                          .watched = watched_lines(job)});
 }
 
 drivers::Capabilities able() {
@@ -72,7 +72,7 @@ std::string faults(const Job& job,
     const auto offsets = offsets_of(length);
     std::string text;
     for (const Diagnostic& fault :
-         tool_change_faults(job, surveyed(job), able(), {status, offsets, limits, laser})) {
+         tool_change_faults(job, checked(job), able(), {status, offsets, limits, laser})) {
         text += to_text(fault) + "\n";
     }
     return text;
@@ -95,7 +95,7 @@ TEST(ToolCheck, FindsEachChangeWithItsToolAndName) {
 TEST(ToolCheck, LeavesOutTheChangesAlone) {
     EXPECT_EQ(without_tool_changes("T1 M6 G0 X1\n(M6)\nM06\nM60\n"), "T1    G0 X1\n(M6)\n   \nM60\n");
     const Job job = job_of(two_tools);
-    EXPECT_THAT(surveyed(job).errors, IsEmpty());
+    EXPECT_THAT(checked(job).errors, IsEmpty());
     Job left = job;
     left.tool_change.reset();
     EXPECT_EQ(controller_text(left), two_tools);
@@ -103,7 +103,7 @@ TEST(ToolCheck, LeavesOutTheChangesAlone) {
 
 TEST(ToolCheck, TellsWhereTheJobStopsAndHowHighItWas) {
     const Job job = job_of(two_tools, drivers::ToolChangeWay::probe);
-    const drivers::ToolChanges changes = tool_changes(job, surveyed(job));
+    const drivers::ToolChanges changes = tool_changes(job, checked(job));
     ASSERT_EQ(changes.stops.size(), 1u);
     EXPECT_EQ(changes.stops[0].line, 5);
     EXPECT_EQ(changes.stops[0].why, "change to tool 2 at line 5: M6");
@@ -111,7 +111,7 @@ TEST(ToolCheck, TellsWhereTheJobStopsAndHowHighItWas) {
     EXPECT_DOUBLE_EQ(*changes.stops[0].highest_z, -50.0); // where it stood is higher than Z6
     EXPECT_TRUE(changes.reference_first);
     const Job first = job_of("G21 G90\nT1 M6\nG0 Z5\n", drivers::ToolChangeWay::probe);
-    const drivers::ToolChanges before = tool_changes(first, surveyed(first));
+    const drivers::ToolChanges before = tool_changes(first, checked(first));
     EXPECT_FALSE(before.stops.at(0).highest_z);
     EXPECT_FALSE(before.reference_first);
 }
@@ -184,16 +184,16 @@ TEST(ToolCheck, ABeginningInTheMiddleNamesTheTool) {
     const Job rest = job_from_line(whole, 12, {.dialect = gcode::Dialect::grbl, .clearance = {}});
     EXPECT_EQ(rest.tool_at_start, 2);
     EXPECT_EQ(faults(rest), "") << "the approach cancels a length itself";
-    EXPECT_EQ(tool_before_start(rest, surveyed(rest)),
+    EXPECT_EQ(tool_before_start(rest, checked(rest)),
               "Tool 2 must be in the spindle at line 12, and the Z zero must be set with it: it is measured "
               "first.");
     EXPECT_THAT(watched_lines(rest), ElementsAre(17)) << "the line numbers are those of the file";
-    EXPECT_TRUE(tool_changes(rest, surveyed(rest)).reference_first);
-    EXPECT_EQ(tool_before_start(whole, surveyed(whole)), "");
+    EXPECT_TRUE(tool_changes(rest, checked(rest)).reference_first);
+    EXPECT_EQ(tool_before_start(whole, checked(whole)), "");
     const Job last = job_from_line(whole, 18, {.dialect = gcode::Dialect::grbl, .clearance = {}});
-    EXPECT_EQ(tool_before_start(last, surveyed(last)),
+    EXPECT_EQ(tool_before_start(last, checked(last)),
               "Tool 3 must be in the spindle at line 18, and the Z zero must be set with it.");
-    EXPECT_TRUE(tool_changes(last, surveyed(last)).needs_zero);
+    EXPECT_TRUE(tool_changes(last, checked(last)).needs_zero);
     whole.tool_change.reset();
     whole.listing = text_job(without_tool_changes(text), "test.ngc").listing;
     EXPECT_EQ(job_from_line(whole, 12, {.dialect = gcode::Dialect::grbl, .clearance = {}}).tool_at_start,
@@ -209,16 +209,16 @@ TEST(ToolCheck, ABeginningInTheMiddleNamesTheToolInTheSpindle) {
     text += "M6\nG0 X1\nM30\n";
     const Job job = job_of(text);
     const Job rest = job_from_line(job, 13, {.dialect = gcode::Dialect::grbl, .clearance = {}});
-    EXPECT_EQ(tool_before_start(rest, surveyed(rest)),
+    EXPECT_EQ(tool_before_start(rest, checked(rest)),
               "Tool 1 must be in the spindle at line 13, and the Z zero must be set with it.");
 }
 
 TEST(ToolCheck, AToolThatIsMeasuredBeforeTheFirstLineIsAskedFor) {
     const Job job = job_of(two_tools, drivers::ToolChangeWay::probe);
-    EXPECT_EQ(tool_before_start(job, surveyed(job)),
+    EXPECT_EQ(tool_before_start(job, checked(job)),
               "The tool with which the Z zero was set must be in the spindle: it is measured first.");
-    EXPECT_TRUE(tool_changes(job, surveyed(job)).needs_zero);
-    EXPECT_EQ(tool_before_start(job_of(two_tools), surveyed(job)), "");
+    EXPECT_TRUE(tool_changes(job, checked(job)).needs_zero);
+    EXPECT_EQ(tool_before_start(job_of(two_tools), checked(job)), "");
 }
 
 TEST(ToolCheck, APlaceLowerThanTheStartIsNoSafeHeight) {
@@ -229,7 +229,7 @@ TEST(ToolCheck, APlaceLowerThanTheStartIsNoSafeHeight) {
 
 TEST(ToolCheck, TheBoxIsThatOfTheCutsWithoutTheChanges) {
     const Job job = job_of("G21 G90 G94\nG0 Z5\nG1 X5 Y4 F100\nG0 Z6\nT2 M6\nG1 X8\nG0 Z6\nM30\n");
-    const Job box = box_trace_job(job, surveyed(job));
+    const Job box = box_trace_job(job, checked(job));
     EXPECT_EQ(box.listing->text.find("M6"), std::string::npos);
     EXPECT_THAT(box.listing->text, HasSubstr("X-92.000"));
 }

@@ -95,9 +95,9 @@ TEST(RoundedPath, HasTheDerivativesOfItsPositions) {
         if (h < too_short || place.offset < h || place.offset > segment.length - h) {
             continue;
         }
-        const PathPoint now = path.at(place.block, place.offset);
-        const PathPoint before = path.at(place.block, place.offset - h);
-        const PathPoint after = path.at(place.block, place.offset + h);
+        const PathDerivatives now = path.at(place.block, place.offset);
+        const PathDerivatives before = path.at(place.block, place.offset - h);
+        const PathDerivatives after = path.at(place.block, place.offset + h);
         const double scale = now.first.norm() + 1.0;
         EXPECT_LT(((after.position - before.position) / (2.0 * h) - now.first).norm(), 1e-3 * scale);
         EXPECT_LT(((after.first - before.first) / 2.0 - h * now.second).norm(), 1e-3 * scale);
@@ -112,8 +112,8 @@ TEST(RoundedPath, IsSmoothWhereBlocksMeet) {
     for (int block = 0; block < path.block_count(); ++block) {
         const Segment& segment = path.segments[static_cast<std::size_t>(block)];
         if (segment.rounding_end > 0.0) {
-            const PathPoint end = path.at(block, segment.length);
-            const PathPoint begin = path.at(segment.after, 0.0);
+            const PathDerivatives end = path.at(block, segment.length);
+            const PathDerivatives begin = path.at(segment.after, 0.0);
             EXPECT_LT((end.position - begin.position).norm(), 1e-9);
             EXPECT_LT((end.first - begin.first).norm(), 1e-9 * end.first.norm());
             EXPECT_LT((end.second - begin.second).norm(), 1e-9 * end.second.norm());

@@ -29,7 +29,7 @@ Trajectory planned_feeds(const std::vector<AxisPositions>& targets) {
     return plan(program, listing_machine(), {}, {});
 }
 
-StepSettings hundred_a_mm() {
+StepSettings hundred_per_mm() {
     StepSettings settings;
     settings.steps_per_unit.assign(5, 100.0);
     return settings;
@@ -50,7 +50,7 @@ Pulsed pulsed(const Trajectory& trajectory, const StepSettings& settings) {
 }
 
 TEST(StepPulses, AreAsManyAsTheWayHasSteps) {
-    const Pulsed found = pulsed(planned_feeds({at_xy(10.0, -5.0), at_xy(4.0, -5.0)}), hundred_a_mm());
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0, -5.0), at_xy(4.0, -5.0)}), hundred_per_mm());
     EXPECT_EQ(found.axes[0].pulses, 1600);
     EXPECT_EQ(found.axes[0].reversals, 1);
     EXPECT_EQ(found.axes[1].pulses, 500);
@@ -62,7 +62,7 @@ TEST(StepPulses, AreAsManyAsTheWayHasSteps) {
 
 /// Every pulse is due where the plan is in the middle between two steps.
 void expect_half_a_step(const Trajectory& trajectory) {
-    StepSettings settings = hundred_a_mm();
+    StepSettings settings = hundred_per_mm();
     settings.steps_per_unit = {400.0, 400.0, 400.0, 3000.0, 3000.0};
     const Pulsed found = pulsed(trajectory, settings);
     ASSERT_GT(found.pulses.size(), 1000U);
@@ -93,7 +93,7 @@ TEST(StepPulses, FollowRoundedCornersWhereAnAxisTurnsBackWithinABlock) {
 }
 
 TEST(StepPulses, AreInOrderAndApart) {
-    StepSettings settings = hundred_a_mm();
+    StepSettings settings = hundred_per_mm();
     settings.timer_frequency = 20'000.0;
     settings.min_interval = 3;
     const Pulsed found = pulsed(planned_feeds({at_xy(50.0, 20.0), at_xy(0.0, 0.0)}), settings);
@@ -106,7 +106,7 @@ TEST(StepPulses, AreInOrderAndApart) {
 }
 
 TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
-    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_a_mm());
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_per_mm());
     EXPECT_EQ(found.axes[0].late, 0);
     EXPECT_LE(found.axes[0].max_jitter, 0.5e-6 + 1e-15);
     EXPECT_GT(found.axes[0].rms_jitter, 0.2e-6);
@@ -114,16 +114,16 @@ TEST(StepPulses, AreOffByHalfATickAtMostWhereTheTimerIsFastEnough) {
 }
 
 TEST(StepPulses, SayHowFastTheyCome) {
-    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_a_mm()); // 10 mm/s
+    const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), hundred_per_mm()); // 10 mm/s
     EXPECT_NEAR(found.axes[0].max_frequency, 1000.0, 1e-3);
-    StepSettings slow = hundred_a_mm();
+    StepSettings slow = hundred_per_mm();
     slow.timer_frequency = 2500.0; // a pulse in 2 or in 3 ticks
     slow.min_interval = 1;
     EXPECT_NEAR(pulsed(planned_feeds({at_xy(10.0)}), slow).axes[0].given_frequency, 1250.0, 1e-9);
 }
 
 TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
-    StepSettings settings = hundred_a_mm();
+    StepSettings settings = hundred_per_mm();
     settings.timer_frequency = 1000.0; // 1000 pulses a second need one every tick
     settings.min_interval = 2;
     settings.jitter_limit = 1e-3;
@@ -137,7 +137,7 @@ TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
 }
 
 TEST(StepPulses, TellTheBlockFromWhichTheTimerDoesNotKeepUp) {
-    StepSettings settings = hundred_a_mm();
+    StepSettings settings = hundred_per_mm();
     settings.timer_frequency = 1000.0;
     EXPECT_EQ(pulsed(planned_feeds({at_xy(3.0), at_xy(6.0), at_xy(16.0)}), settings).axes[0].overrun_block,
               2);
@@ -149,7 +149,7 @@ TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
     program::Program program = test::empty_program(listing_machine());
     test::add_move(program, at_xy(0.019), 1.0);
     const Trajectory trajectory = plan(program, listing_machine(), {}, {}, at_xy(0.004));
-    const Pulsed found = pulsed(trajectory, hundred_a_mm());
+    const Pulsed found = pulsed(trajectory, hundred_per_mm());
     ASSERT_EQ(found.pulses.size(), 2U); // over 0.005 and 0.015
     EXPECT_EQ(found.pulses[1].position, 2);
     EXPECT_NEAR(found.axes[0].end_error_steps, -0.1, 1e-9);
@@ -157,7 +157,7 @@ TEST(StepPulses, StartOnTheStepNearestToTheMotion) {
 
 TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
     const Trajectory whole = planned_feeds({at_xy(10.0), at_xy(20.0, 10.0)});
-    const StepSettings settings = hundred_a_mm();
+    const StepSettings settings = hundred_per_mm();
     const Trajectory braking = brake(whole, 0.7 * whole.duration());
     const Trajectory rest = go_on(braking, braking.duration(), {});
     const std::int64_t steps =
@@ -168,7 +168,7 @@ TEST(StepPulses, OfAHoldEndWhereItComesToRestAndGoOnFromThere) {
 }
 
 TEST(StepPulses, OfALongBlockComeInOrderAndInSmallParts) {
-    StepSettings settings = hundred_a_mm();
+    StepSettings settings = hundred_per_mm();
     settings.steps_per_unit = {1e4, 7e3, 100.0, 100.0, 100.0};
     std::size_t most = 0;
     std::int64_t count = 0;
@@ -192,7 +192,7 @@ TEST(StepPulses, RefuseSettingsWithoutSense) {
     const test::WithoutTraps numbers_that_are_none;
     const Trajectory trajectory = planned_feeds({at_xy(1.0)});
     const auto refused = [&](auto change) {
-        StepSettings settings = hundred_a_mm();
+        StepSettings settings = hundred_per_mm();
         change(settings);
         EXPECT_THROW((void)pulsed(trajectory, settings), Error);
     };
@@ -201,7 +201,7 @@ TEST(StepPulses, RefuseSettingsWithoutSense) {
     refused([](StepSettings& s) { s.steps_per_unit[1] = std::nan(""); });
     refused([](StepSettings& s) { s.timer_frequency = 0.0; });
     refused([](StepSettings& s) { s.min_interval = 0; });
-    refused([](StepSettings& s) { s.most_pulses_a_block = 99; });
+    refused([](StepSettings& s) { s.most_pulses_per_block = 99; });
 }
 
 } // namespace

@@ -139,7 +139,7 @@ TEST(CutStudy, TheMapHasALineAPointAndNothingWhereNothingWasCut) {
     const Plan plan = studied_cut(plane(5, 3), narrow);
     const CutStudy& found = *plan.cut;
     EXPECT_GT(found.scallops.not_cut, 0.5);
-    std::istringstream lines(surface_csv(*plan.workpiece, found.swept));
+    std::istringstream lines(surface_csv(*plan.cutting_setup, found.swept));
     std::string line;
     std::getline(lines, line);
     EXPECT_EQ(line, "u,v,x_mm,y_mm,z_mm,height_mm");
@@ -159,7 +159,7 @@ TEST(CutStudy, TheMapHasNoPointOutsideOfTheOutline) {
     project::Project project = plane(5, 11);
     project.surface.trims = {{{{{0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}, {0.0, 1.0}}}}};
     const Plan plan = studied_cut(project, ball_tool);
-    std::istringstream lines(surface_csv(*plan.workpiece, plan.cut->swept));
+    std::istringstream lines(surface_csv(*plan.cutting_setup, plan.cut->swept));
     std::string line;
     std::getline(lines, line);
     int count = 0;

@@ -2,7 +2,7 @@
 
 #include "core/plan/internal/grid_stages.h"
 #include "core/plan/strategy_path.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "tests/core/plan/sample_projects.h"
 
 #include <gmock/gmock.h>
@@ -166,9 +166,9 @@ TEST(Stages, WhyAComparisonWithNearestAnglesIsMissingIsKept) {
     Plan plan = make_plan(project, sample_folders, {}, Scope::program);
     ASSERT_NE(plan.unsequenced, nullptr);
     EXPECT_FALSE(plan.unsequenced_failure);
-    Workpiece far_away = *plan.workpiece; // out of reach
+    CuttingSetup far_away = *plan.cutting_setup; // out of reach
     far_away.machine = far_away.machine.with_workpiece_offset(Vec3(0, 0, 4000));
-    plan.workpiece = std::make_shared<const Workpiece>(std::move(far_away));
+    plan.cutting_setup = std::make_shared<const CuttingSetup>(std::move(far_away));
     const std::vector<Stage> stages = stages_of(project, Scope::program);
     const auto stage = std::ranges::find(stages, StageKey{StageKind::unsequenced}, &Stage::key);
     ASSERT_NE(stage, stages.end());
@@ -215,7 +215,7 @@ TEST(Derivation, AFaultOfACoarseResultLeavesTheExactOneToBeTried) {
         ASSERT_NE(last.plan.listing, nullptr);
         EXPECT_EQ(last.plan.listing->text, alone.listing->text);
     }
-    Derivation derivation(failing_coarsely({StageKind::workpiece})); // it is what it will be
+    Derivation derivation(failing_coarsely({StageKind::cutting_setup})); // it is what it will be
     EXPECT_TRUE(derived(derivation, project, Scope::everything).back().failure);
 }
 

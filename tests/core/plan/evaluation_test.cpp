@@ -16,7 +16,7 @@
 namespace millwright::plan {
 namespace {
 
-Workpiece dome_on(const std::string& machine) {
+CuttingSetup dome_on(const std::string& machine) {
     return {geometry::surface_preset("dome").make().patch(geometry::PatchId{0}), test::machine(machine)};
 }
 
@@ -105,7 +105,7 @@ TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
     net.point(1, 0) = {30, -20, 0};
     net.point(0, 1) = {-30, 20, 0};
     net.point(1, 1) = {30, 20, 0};
-    const Workpiece sheet{geometry::BezierPatch(net), test::machine("ac-table")};
+    const CuttingSetup sheet{geometry::BezierPatch(net), test::machine("ac-table")};
     const Evaluation found = evaluate(sheet, uniform(7, 3), {4}, Progress());
     EXPECT_NEAR(found.track_gap.value(), 10.0, 1e-9);
     EXPECT_NEAR(found.path_length, 7 * 40.0 + 6 * 10.0, 1e-9);
@@ -113,26 +113,27 @@ TEST(Evaluation, TheGapOfAFlatSheetIsItsTrackSpacing) {
 }
 
 TEST(Evaluation, FaultyAnglesLeaveTheNormal) {
-    Workpiece workpiece = dome_on("rotary-tilt-listing");
-    EXPECT_LT(evaluate(workpiece, uniform(20, 20), {3}, Progress()).closest.axis_mean, from_degrees(2.0));
-    workpiece.angle_mode = kinematics::AngleMode::faulty_text;
-    EXPECT_GT(evaluate(workpiece, uniform(20, 20), {3}, Progress()).closest.axis_mean, from_degrees(10.0));
-    workpiece.machine = test::machine("ac-table");
-    EXPECT_THROW((void)evaluate(workpiece, uniform(20, 20), {3}, Progress()), Error);
+    CuttingSetup cutting_setup = dome_on("rotary-tilt-listing");
+    EXPECT_LT(evaluate(cutting_setup, uniform(20, 20), {3}, Progress()).closest.axis_mean, from_degrees(2.0));
+    cutting_setup.angle_mode = kinematics::AngleMode::faulty_text;
+    EXPECT_GT(evaluate(cutting_setup, uniform(20, 20), {3}, Progress()).closest.axis_mean,
+              from_degrees(10.0));
+    cutting_setup.machine = test::machine("ac-table");
+    EXPECT_THROW((void)evaluate(cutting_setup, uniform(20, 20), {3}, Progress()), Error);
 }
 
 TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
     using toolpath::MoveKind;
     using toolpath::SequencingGoal;
-    Workpiece workpiece = dome_on("rotary-tilt-listing");
+    CuttingSetup cutting_setup = dome_on("rotary-tilt-listing");
     const auto with = [&](const toolpath::SequencingSettings& settings) {
-        workpiece.sequencing = settings;
-        return evaluate(workpiece, uniform(12, 12), {8}, Progress());
+        cutting_setup.sequencing = settings;
+        return evaluate(cutting_setup, uniform(12, 12), {8}, Progress());
     };
     const auto step = [&](const Evaluation& of) {
-        return toolpath::largest_rotary_step(workpiece.machine, of.toolpath, of.axes, MoveKind::track);
+        return toolpath::largest_rotary_step(cutting_setup.machine, of.toolpath, of.axes, MoveKind::track);
     };
-    const Evaluation nearest = evaluate(workpiece, uniform(12, 12), {8}, Progress());
+    const Evaluation nearest = evaluate(cutting_setup, uniform(12, 12), {8}, Progress());
     EXPECT_EQ(with({}).closest.mean, nearest.closest.mean);
     const Evaluation travel = with({.goal = SequencingGoal::travel});
     EXPECT_LE(travel.axes.rotary_travel, nearest.axes.rotary_travel * (1.0 + 1e-9));
@@ -146,10 +147,10 @@ TEST(Evaluation, OfAPathWhoseBranchesAreChosenForItAll) {
 
 /// A cutter cuts what its body says: on a router a ball's tip runs beside the surface, and touches it.
 TEST(Evaluation, OfACutterIsOfItsBody) {
-    Workpiece workpiece = dome_on("router-xyz");
-    const auto touching = [&] { return evaluate(workpiece, uniform(20, 20), {8}, Progress()); };
+    CuttingSetup cutting_setup = dome_on("router-xyz");
+    const auto touching = [&] { return evaluate(cutting_setup, uniform(20, 20), {8}, Progress()); };
     const Evaluation point = touching();
-    workpiece.tool.cutter = test::body(test::ball);
+    cutting_setup.tool.cutter = test::body(test::ball);
     const Evaluation ball = touching();
     double farthest = 0.0;
     for (std::size_t n = 0; n < ball.toolpath.points.size(); ++n) {
@@ -163,9 +164,9 @@ TEST(Evaluation, OfACutterIsOfItsBody) {
 }
 
 TEST(Evaluation, APartOutOfReachIsAnError) {
-    Workpiece workpiece = dome_on("ac-table");
-    workpiece.machine = workpiece.machine.with_workpiece_offset({0, 0, 5000});
-    EXPECT_THROW((void)evaluate(workpiece, uniform(4, 4), {3}, Progress()), Error);
+    CuttingSetup cutting_setup = dome_on("ac-table");
+    cutting_setup.machine = cutting_setup.machine.with_workpiece_offset({0, 0, 5000});
+    EXPECT_THROW((void)evaluate(cutting_setup, uniform(4, 4), {3}, Progress()), Error);
 }
 
 TEST(Evaluation, StopsWhenCancelled) {

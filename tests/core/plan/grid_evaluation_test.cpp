@@ -29,12 +29,12 @@ Made tracks_on_two_bells(int nu, int nv, SequencingGoal goal) {
     input.nu = nu;
     input.nv = nv;
     input.direction = grid::TrackDirection::along_u;
-    Workpiece workpiece{geometry::surface_preset("two-bell").make().patch(geometry::PatchId{0}),
-                        test::machine("tilted-c-table"),
-                        input.direction};
-    workpiece.sequencing.goal = goal;
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
+    CuttingSetup cutting_setup{geometry::surface_preset("two-bell").make().patch(geometry::PatchId{0}),
+                               test::machine("tilted-c-table"),
+                               input.direction};
+    cutting_setup.sequencing.goal = goal;
+    const Evaluation uniform = evaluate(cutting_setup, uniform_outcome(input), report_sampling, {});
+    return {uniform, improved_evaluation({GridMethod::tracks, input, cutting_setup}, uniform, {})};
 }
 
 void expect_a_third_less(const Made& made) {
@@ -69,25 +69,25 @@ TEST(GridEvaluation, WhatTheChainDidStaysToldWhereAnotherGridIsTaken) {
     input.nu = 12;
     input.nv = 8;
     input.direction = grid::TrackDirection::along_u;
-    const Workpiece workpiece{geometry::surface_preset("saddle").make().patch(geometry::PatchId{0}),
-                              test::machine("bc-table-head"),
-                              input.direction};
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    const Evaluation found = improved_evaluation({GridMethod::chain, input, workpiece}, uniform, {});
+    const CuttingSetup cutting_setup{geometry::surface_preset("saddle").make().patch(geometry::PatchId{0}),
+                                     test::machine("bc-table-head"),
+                                     input.direction};
+    const Evaluation uniform = evaluate(cutting_setup, uniform_outcome(input), report_sampling, {});
+    const Evaluation found = improved_evaluation({GridMethod::chain, input, cutting_setup}, uniform, {});
     EXPECT_THAT(found.outcome.note, testing::HasSubstr("On the finished part no stage of the chain"));
-    ASSERT_FALSE(found.outcome.links.empty());
-    EXPECT_EQ(found.outcome.links.front().name, "start");
+    ASSERT_FALSE(found.outcome.stages.empty());
+    EXPECT_EQ(found.outcome.stages.front().name, "start");
 }
 
 /// The dome on a table with a head, 20 x 20 nodes along v, with a largest turn of a rotary axis.
 Made tracks_on_the_dome(double largest_step_deg) {
     project::GridInput input;
-    Workpiece workpiece{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
-                        test::machine("bc-table-head"),
-                        input.direction};
-    workpiece.sequencing.largest_step = from_degrees(largest_step_deg);
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
-    return {uniform, improved_evaluation({GridMethod::tracks, input, workpiece}, uniform, {})};
+    CuttingSetup cutting_setup{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
+                               test::machine("bc-table-head"),
+                               input.direction};
+    cutting_setup.sequencing.largest_step = from_degrees(largest_step_deg);
+    const Evaluation uniform = evaluate(cutting_setup, uniform_outcome(input), report_sampling, {});
+    return {uniform, improved_evaluation({GridMethod::tracks, input, cutting_setup}, uniform, {})};
 }
 
 // With points at every 30 degrees the uniform grid turns the axis less than the tracks do; its tip errs by
@@ -108,12 +108,12 @@ TEST(GridEvaluation, AddedPointsMakeNoTracksWorse) {
 
 /// What was made, or the refusal; a Defect is neither.
 std::string made_or_refused(GridMethod method, const project::GridInput& input) {
-    const Workpiece workpiece{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
-                              test::machine("rotary-tilt-listing"),
-                              input.direction};
-    const Evaluation uniform = evaluate(workpiece, uniform_outcome(input), report_sampling, {});
+    const CuttingSetup cutting_setup{geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
+                                     test::machine("rotary-tilt-listing"),
+                                     input.direction};
+    const Evaluation uniform = evaluate(cutting_setup, uniform_outcome(input), report_sampling, {});
     try {
-        (void)improved_evaluation({method, input, workpiece}, uniform, {});
+        (void)improved_evaluation({method, input, cutting_setup}, uniform, {});
         return "made";
     } catch (const Error& refusal) {
         return refusal.diagnostic().message;

@@ -15,7 +15,7 @@ namespace millwright::plan {
 namespace {
 
 /// Nodes closer together at the ends of each track along v, in one step: v - 0.5 sin(2 pi v) / (2 pi).
-class EndSpacing : public grid::GridImprover {
+class EndSpacing : public grid::GridOptimiser {
 public:
     EndSpacing(const grid::ErrorModel& model, const grid::Grid& start, grid::TrackDirection direction)
         : model_(model), direction_(direction),
@@ -23,7 +23,7 @@ public:
     }
 
     bool advance(const Progress& progress) override {
-        if (state_.status != grid::ImproverStatus::running) {
+        if (state_.status != grid::OptimiserStatus::running) {
             return false;
         }
         for (Vec2& node : state_.current.nodes) {
@@ -36,17 +36,17 @@ public:
         const bool better = state_.now.mean < state_.start.mean;
         state_.best = better ? found : state_.best;
         state_.of_best = better ? state_.now : state_.start;
-        state_.status = better ? grid::ImproverStatus::converged : grid::ImproverStatus::no_gain;
+        state_.status = better ? grid::OptimiserStatus::converged : grid::OptimiserStatus::no_gain;
         state_.note = better ? "Nodes closer together at the ends" : "Even steps have less error";
         state_.done = 1.0;
         return false;
     }
-    [[nodiscard]] const grid::ImproverState& state() const override { return state_; }
+    [[nodiscard]] const grid::OptimiserState& state() const override { return state_; }
 
 private:
     const grid::ErrorModel& model_;
     grid::TrackDirection direction_;
-    grid::ImproverState state_;
+    grid::OptimiserState state_;
 };
 
 const GridMethodRow end_spacing_row{
@@ -56,21 +56,21 @@ const GridMethodRow end_spacing_row{
     .title = "Moving the nodes to the ends",
     .share = 0.02,
     .same_settings = [](const project::GridInput&, const project::GridInput&) { return true; },
-    .improver = [](GridStart from) -> std::unique_ptr<grid::GridImprover> {
+    .optimiser = [](GridStart from) -> std::unique_ptr<grid::GridOptimiser> {
         expect_straight_tracks(from.input.direction, from.start);
         return std::make_unique<EndSpacing>(from.error, from.start, from.input.direction);
     }};
 
 TEST(GridRecipe, ARowMakesAGridThatIsMeasuredLikeTheOthers) {
     const project::Project project = test::small_sample("dome", 9);
-    const Workpiece workpiece = workpiece_of(project, test::sample_folders);
-    const toolpath::KinematicError error = workpiece.error_model();
-    const auto improver =
-        end_spacing_row.improver({project.grid, error, uniform_outcome(project.grid).grid, Effort::full});
+    const CuttingSetup cutting_setup = cutting_setup_of(project, test::sample_folders);
+    const toolpath::KinematicError error = cutting_setup.error_model();
+    const auto optimiser =
+        end_spacing_row.optimiser({project.grid, error, uniform_outcome(project.grid).grid, Effort::full});
     const Evaluation found =
-        evaluate(workpiece, improved_outcome(*improver, {}), report_sampling, Progress());
+        evaluate(cutting_setup, improved_outcome(*optimiser, {}), report_sampling, Progress());
     EXPECT_EQ(found.outcome.grid.nu(), 9);
-    const grid::ImproverState& state = improver->state();
+    const grid::OptimiserState& state = optimiser->state();
     EXPECT_LT(state.reached.at(3, 1).y(), 1.0 / 8.0) << "nearer to the end than an even step";
     EXPECT_EQ(state.best.array() == state.reached, state.now.mean < state.start.mean);
 }
@@ -83,7 +83,7 @@ TEST(GridMethodRows, StandInTheOrderOfTheirEnumeratorsAndAreComplete) {
         EXPECT_FALSE(row.report_key.empty() || row.short_name.empty() || row.title.empty());
         EXPECT_GT(row.share, 0.0);
         EXPECT_TRUE(row.same_settings({}, {}));
-        EXPECT_EQ(row.improver == nullptr, method == project::GridMethod::uniform);
+        EXPECT_EQ(row.optimiser == nullptr, method == project::GridMethod::uniform);
         EXPECT_EQ(row.memory == nullptr, row.grid_name.empty());
     }
 }

@@ -205,7 +205,7 @@ TEST_F(PipelineTest, ACancelledRequestCanBeMadeAgain) {
 
 TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
     std::mutex mutex;
-    std::vector<grid::ImproverStatus> uniform;
+    std::vector<grid::OptimiserStatus> uniform;
     Pipeline* told = nullptr;
     Pipeline pipeline(sample_folders, [&] {
         const std::scoped_lock lock(mutex);
@@ -219,12 +219,12 @@ TEST(PipelineTold, WhatIsMeasuredCoarselyIsMarkedUntilTheExactOneIsThere) {
     pipeline.wait_idle();
     const std::scoped_lock lock(mutex);
     ASSERT_GE(uniform.size(), 2U);
-    EXPECT_EQ(uniform.front(), grid::ImproverStatus::running);
-    EXPECT_EQ(uniform.back(), grid::ImproverStatus::converged);
+    EXPECT_EQ(uniform.front(), grid::OptimiserStatus::running);
+    EXPECT_EQ(uniform.back(), grid::OptimiserStatus::converged);
     const auto plan = pipeline.latest();
     ASSERT_TRUE(plan->exact);
     for (const GridMethod method : project::compared_methods) {
-        EXPECT_NE(plan->plan.grid(method).evaluation->outcome.status, grid::ImproverStatus::running);
+        EXPECT_NE(plan->plan.grid(method).evaluation->outcome.status, grid::OptimiserStatus::running);
     }
 }
 
@@ -316,13 +316,13 @@ TEST_F(PipelineTest, AnAdaptationIsSteppedPlayedAndReset) {
     const auto stepped = pipeline.adaptation();
     ASSERT_NE(stepped->state, nullptr);
     EXPECT_FALSE(stepped->playing);
-    EXPECT_EQ(stepped->state->status, grid::ImproverStatus::running);
+    EXPECT_EQ(stepped->state->status, grid::OptimiserStatus::running);
     pipeline.play_adaptation();
     EXPECT_TRUE(pipeline.adaptation()->playing);
     pipeline.wait_idle();
     const auto played = pipeline.adaptation();
     EXPECT_FALSE(played->playing);
-    EXPECT_NE(played->state->status, grid::ImproverStatus::running);
+    EXPECT_NE(played->state->status, grid::OptimiserStatus::running);
     EXPECT_EQ(played->state->best, pipeline.latest()->plan.grid(GridMethod::tracks).evaluation->outcome.grid)
         << "the plan's own grid";
     EXPECT_GT(played->revision, stepped->revision);

@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "core/base/memory.h"
 #include "core/base/parallel.h"
-#include "core/plan/left_out.h"
 #include "core/plan/report.h"
+#include "core/plan/skipped_comparisons.h"
 #include "core/project/project_file.h"
 #include "tests/core/plan/sample_projects.h"
 
@@ -162,10 +162,10 @@ TEST(Plan, AGridThatTakesTooMuchMemoryIsNotBegun) {
 TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
     project::Project project = small_sample("dome", 500);
     project.grid.method = GridMethod::uniform;
-    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
-    EXPECT_EQ(left_out_sentence(project), "");
+    EXPECT_FALSE(is_comparison_skipped(project, GridMethod::elliptic));
+    EXPECT_EQ(skipped_comparisons_sentence(project), "");
     project.grid.nu = 501;
-    const std::string why = left_out_sentence(project);
+    const std::string why = skipped_comparisons_sentence(project);
     EXPECT_EQ(why,
               "Not computed for comparison because 501 x 500 nodes are more than 250,000: Elliptic, Track "
               "optimiser.");
@@ -179,7 +179,7 @@ TEST(Plan, OfVeryManyNodesNoGridIsMadeOnlyToCompareWith) {
         EXPECT_EQ(report.at("error").at(grid).at("left_out"), why);
     }
     project.grid.method = GridMethod::elliptic;
-    EXPECT_FALSE(is_left_out(project, GridMethod::elliptic));
+    EXPECT_FALSE(is_comparison_skipped(project, GridMethod::elliptic));
 }
 
 TEST(Plan, TellsBeforehandWhatLargeGridsTake) {
@@ -321,13 +321,13 @@ TEST(Plan, OfLeastTimeIsNoSlowerByThePlannerThanTheOtherWays) {
 TEST(Plan, OfTheThesissMachineUsesItsConstants) {
     project::Project project = project::project_from_preset("dome");
     project.machine.tool_set = project::ToolSetInput{.e = 0.5, .OF = 119.0, .AB = 240.0, .B4 = 360.25};
-    const Workpiece workpiece = workpiece_of(project, {{}, "assets"});
-    EXPECT_DOUBLE_EQ(workpiece.machine.description().tool_tip.z(), 241.25);
-    EXPECT_DOUBLE_EQ(workpiece.machine.description().table_origin.z(), -240.0);
-    EXPECT_EQ(workpiece.machine.description().workpiece_offset, Vec3(-15.0, 0.0, 175.0));
+    const CuttingSetup cutting_setup = cutting_setup_of(project, {{}, "assets"});
+    EXPECT_DOUBLE_EQ(cutting_setup.machine.description().tool_tip.z(), 241.25);
+    EXPECT_DOUBLE_EQ(cutting_setup.machine.description().table_origin.z(), -240.0);
+    EXPECT_EQ(cutting_setup.machine.description().workpiece_offset, Vec3(-15.0, 0.0, 175.0));
     project.machine.file = "ac-table";
     try {
-        (void)workpiece_of(project, {{}, "assets"});
+        (void)cutting_setup_of(project, {{}, "assets"});
         ADD_FAILURE() << "the A-on-C table has no AB";
     } catch (const Error& fault) {
         EXPECT_THAT(to_text(fault.diagnostic()),

@@ -28,8 +28,8 @@ SetUpStudySettings small_settings() {
 
 TEST(SetUpStudy, TheBestIsNotWorseThanAnyPlaceOfTheMap) {
     project::Project project = project::project_from_preset("dome");
-    const Workpiece workpiece = workpiece_of(project, asset_folders);
-    const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
+    const CuttingSetup cutting_setup = cutting_setup_of(project, asset_folders);
+    const SetUpStudy study = set_up_study(cutting_setup, small_settings(), Progress());
     EXPECT_LT(study.search.best.cost, 0.7 * study.search.start.cost);
     ASSERT_EQ(study.map.costs.size(), 25U);
     EXPECT_LE(study.search.best.cost, *std::ranges::min_element(study.map.costs) * 1.02);
@@ -41,16 +41,16 @@ TEST(SetUpStudy, AProjectWithThePartThereCostsWhatWasFound) {
     SetUpStudySettings settings = small_settings();
     settings.turn_reach = 1.0;
     settings.across = SetUpParameter::turn;
-    const Workpiece workpiece = workpiece_of(project, asset_folders);
-    toolpath::SetUpPlace place = set_up_cost(workpiece, settings).start();
+    const CuttingSetup cutting_setup = cutting_setup_of(project, asset_folders);
+    toolpath::SetUpPlace place = set_up_cost(cutting_setup, settings).start();
     place += toolpath::SetUpPlace(5.0, -3.0, 2.0, 0.6);
     const project::Project there = with_set_up(project, place);
     EXPECT_EQ(there.machine.workpiece_offset.value(), toolpath::offset_of(place));
     EXPECT_NE(there.surface.patches, project.surface.patches);
     EXPECT_TRUE(project::faults_of(there).empty());
-    const toolpath::SetUpCost cost = set_up_cost(workpiece_of(there, asset_folders), settings);
+    const toolpath::SetUpCost cost = set_up_cost(cutting_setup_of(there, asset_folders), settings);
     EXPECT_NEAR(
-        cost.at(cost.start(), Progress()), set_up_cost(workpiece, settings).at(place, Progress()), 1e-9);
+        cost.at(cost.start(), Progress()), set_up_cost(cutting_setup, settings).at(place, Progress()), 1e-9);
 }
 
 /// The dome 20 times as large.
@@ -66,7 +66,7 @@ project::Project large_dome() {
 
 TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
     try {
-        (void)set_up_study(workpiece_of(large_dome(), asset_folders), small_settings(), Progress());
+        (void)set_up_study(cutting_setup_of(large_dome(), asset_folders), small_settings(), Progress());
         FAIL() << "nothing thrown";
     } catch (const Error& error) {
         EXPECT_THAT(error.diagnostic().message,
@@ -81,10 +81,10 @@ TEST(SetUpStudy, APartOutOfReachEverywhereIsRefusedWithTheAxisAndItsLimits) {
 TEST(SetUpStudy, AStartOutOfReachHasItsReasonAndTheBestHasNone) {
     project::Project project = project::project_from_preset("dome");
     project.machine.workpiece_offset = Vec3(900.0, 0.0, 175.0);
-    const Workpiece workpiece = workpiece_of(project, asset_folders);
-    const SetUpStudy study = set_up_study(workpiece, small_settings(), Progress());
+    const CuttingSetup cutting_setup = cutting_setup_of(project, asset_folders);
+    const SetUpStudy study = set_up_study(cutting_setup, small_settings(), Progress());
     const auto why = [&](const toolpath::SetUpPlace& place) {
-        return why_out_of_reach(workpiece, small_settings(), place).value_or("in reach");
+        return why_out_of_reach(cutting_setup, small_settings(), place).value_or("in reach");
     };
     EXPECT_THAT(why(study.search.start.place), HasSubstr(" cannot be reached: axis "));
     EXPECT_EQ(why(study.search.best.place), "in reach");
@@ -102,13 +102,14 @@ TEST(SetUpStudy, TheMapForSpreadsheetsIsInPeoplesUnits) {
 }
 
 TEST(SetUpStudy, RefusesWhatMakesNoSenseAndCanBeCancelled) {
-    const Workpiece workpiece = workpiece_of(project::project_from_preset("dome"), asset_folders);
+    const CuttingSetup cutting_setup = cutting_setup_of(project::project_from_preset("dome"), asset_folders);
     SetUpStudySettings same = small_settings();
     same.up = same.across;
-    EXPECT_THROW((void)set_up_study(workpiece, same, Progress()), Defect);
+    EXPECT_THROW((void)set_up_study(cutting_setup, same, Progress()), Defect);
     std::stop_source stop;
     stop.request_stop();
-    EXPECT_THROW((void)set_up_study(workpiece, small_settings(), Progress({}, stop.get_token())), Cancelled);
+    EXPECT_THROW((void)set_up_study(cutting_setup, small_settings(), Progress({}, stop.get_token())),
+                 Cancelled);
 }
 
 } // namespace

@@ -41,7 +41,7 @@ TEST(SetUpWorker, FindsABetterPlaceInTheBackground) {
     // What was promised is what the project costs there.
     const project::Project accepted = with_set_up(project, found->study->search.best.place);
     EXPECT_TRUE(same_but_for_place(project, accepted));
-    const Workpiece there = workpiece_of(accepted, folders);
+    const CuttingSetup there = cutting_setup_of(accepted, folders);
     const toolpath::SetUpCost cost = set_up_cost(there, quick());
     EXPECT_NEAR(cost.at(cost.start(), {}), found->study->search.best.cost, 1e-9);
 }

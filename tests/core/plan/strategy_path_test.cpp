@@ -6,7 +6,7 @@
 #include "core/plan/pipeline.h"
 #include "core/plan/report.h"
 #include "core/project/project_file.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "tests/core/plan/sample_projects.h"
 
 #include <gmock/gmock.h>
@@ -38,15 +38,16 @@ project::Project dome_with_strategy(project::StrategyInput strategy, int nodes =
 }
 
 /// The tips of the strategy itself on the grid of `base`.
-std::vector<Vec3>
-contacts_by(const toolpath::StrategySettings& settings, const Workpiece& workpiece, const Evaluation& base) {
+std::vector<Vec3> contacts_by(const toolpath::StrategySettings& settings,
+                              const CuttingSetup& cutting_setup,
+                              const Evaluation& base) {
     std::vector<Vec3> found;
-    const toolpath::Covering all{workpiece.patch,
-                                 workpiece.machine,
-                                 workpiece.tool,
+    const toolpath::Covering all{cutting_setup.patch,
+                                 cutting_setup.machine,
+                                 cutting_setup.tool,
                                  base.outcome.grid,
-                                 workpiece.direction,
-                                 workpiece.flipped};
+                                 cutting_setup.direction,
+                                 cutting_setup.flipped};
     for (const auto& point : toolpath::make_strategy(settings)->contacts(all, Progress()).points) {
         found.push_back(point.contact);
     }
@@ -67,7 +68,8 @@ TEST_P(StrategyOfAProject, IsThePathOfTheCoresFunctionOnTheCommandLineAndInTheBa
     const project::Project project = dome_with_strategy(GetParam());
     const Plan plan = make_plan(project, sample_folders, Progress());
     ASSERT_EQ(plan.program_path(project), plan.path);
-    EXPECT_EQ(contacts_of(*plan.path), contacts_by(strategy_settings(project), *plan.workpiece, *plan.path));
+    EXPECT_EQ(contacts_of(*plan.path),
+              contacts_by(strategy_settings(project), *plan.cutting_setup, *plan.path));
     EXPECT_GT(plan.program_notes.cut_moves, 0);
     EXPECT_EQ(plan.path_time, plan.trajectory->duration());
     EXPECT_THAT(plan.listing->text, HasSubstr(strategy_text(project)));
@@ -175,7 +177,7 @@ TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
     project.grid.method = GridMethod::tracks;
     project.toolpath.strategy = project::StrategyInput::spiral;
     const Plan plan = make_plan(project, sample_folders, Progress(), Scope::program);
-    const Evaluation even = evaluate(*plan.workpiece,
+    const Evaluation even = evaluate(*plan.cutting_setup,
                                      plan.grid(GridMethod::uniform).evaluation->outcome,
                                      strategy_settings(project),
                                      report_sampling,
@@ -183,9 +185,9 @@ TEST(StrategyPath, ASpiralIsNeverWorseThanOverTheUniformGrid) {
     ASSERT_FALSE(
         keeps_grid(*plan.grid(GridMethod::tracks).evaluation, *plan.grid(GridMethod::uniform).evaluation))
         << "else there is nothing to refuse";
-    EXPECT_FALSE(is_worse(*plan.path, even, plan.workpiece->machine));
+    EXPECT_FALSE(is_worse(*plan.path, even, plan.cutting_setup->machine));
     EXPECT_LE(*plan.path->track_gap, 1.1 * *even.track_gap);
-    EXPECT_EQ(plan.path->outcome.status, grid::ImproverStatus::no_gain);
+    EXPECT_EQ(plan.path->outcome.status, grid::OptimiserStatus::no_gain);
     EXPECT_THAT(crossing_remark(project, plan), HasSubstr("than over the uniform grid"));
     EXPECT_THAT(plan.listing->text, HasSubstr("8 x 8, Uniform"));
     project.grid.method = GridMethod::uniform;
@@ -249,9 +251,9 @@ TEST_P(GridMethodOfAProject, MakesTheGridOfTheCoresImproverAndComesBackFromItsFi
     project.grid.redistribution = {.floor = 0.2, .smoothing_passes = 3};
     EXPECT_EQ(project::project_from_text(project::project_text(project), "p.json"), project);
     const Plan plan = make_plan(project, sample_folders, Progress());
-    const toolpath::KinematicError error = plan.workpiece->error_model();
-    const auto improver = make_improver(GetParam(), project.grid, error);
-    const GridOutcome outcome = improved_outcome(*improver, Progress());
+    const toolpath::KinematicError error = plan.cutting_setup->error_model();
+    const auto optimiser = make_optimiser(GetParam(), project.grid, error);
+    const GridOutcome outcome = improved_outcome(*optimiser, Progress());
     EXPECT_EQ(plan.program_path(project)->outcome.grid, outcome.grid);
     EXPECT_LT(plan.program_path(project)->closest.mean,
               plan.grid(GridMethod::uniform).evaluation->closest.mean);

@@ -52,8 +52,8 @@ class TrimmedSurface : public testing::TestWithParam<StrategyInput> {};
 TEST_P(TrimmedSurface, IsCutInsideItsOutlineOnly) {
     const Project project = trimmed_dome(GetParam());
     const plan::Plan plan = plan::make_plan(project, sample_folders, Progress(), plan::Scope::program);
-    const plan::Workpiece& workpiece = *plan.workpiece;
-    const geometry::ClosestPointSearch search(workpiece.patch);
+    const plan::CuttingSetup& cutting_setup = *plan.cutting_setup;
+    const geometry::ClosestPointSearch search(cutting_setup.patch);
     ASSERT_TRUE(plan.program);
     int cuts = 0;
     kinematics::AxisPositions at = plan.program->start;
@@ -61,8 +61,8 @@ TEST_P(TrimmedSurface, IsCutInsideItsOutlineOnly) {
         for (const double t : {0.0, 0.3, 0.7, 1.0}) {
             if (block.role == program::MoveRole::cut) {
                 const geometry::ToolPose pose =
-                    kinematics::forward(workpiece.machine, at + t * (block.target - at));
-                const double radius = workpiece.tool.cutter ? 5.0 : 0.0;
+                    kinematics::forward(cutting_setup.machine, at + t * (block.target - at));
+                const double radius = cutting_setup.tool.cutter ? 5.0 : 0.0;
                 const Vec3 near = pose.tip + radius * pose.axis; // of the ball's middle
                 EXPECT_LT(outside(search.closest(near).parameters), 0.02);
                 ++cuts;

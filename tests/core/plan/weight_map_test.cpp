@@ -14,7 +14,7 @@
 namespace millwright::plan {
 namespace {
 
-Workpiece dome_workpiece() {
+CuttingSetup dome_cutting_setup() {
     return {geometry::surface_preset("dome").make().patch(geometry::PatchId{0}),
             test::machine("rotary-tilt-listing")};
 }
@@ -27,7 +27,7 @@ project::GridInput input(project::WeightSource source) {
 }
 
 WeightMap map_of(const project::GridInput& chosen) {
-    return weight_map(chosen, dome_workpiece(), Progress());
+    return weight_map(chosen, dome_cutting_setup(), Progress());
 }
 
 // T16.
@@ -105,8 +105,8 @@ TEST(WeightMap, OfAFormulaWithAPoleBetweenTheNodesShowsTheNodes) {
 TEST(WeightMap, OfTheErrorIsLargestWhereAMoveOfTheUniformGridIsWorst) {
     const project::GridInput chosen = input(project::WeightSource::error);
     const WeightMap map = map_of(chosen);
-    const Workpiece workpiece = dome_workpiece();
-    const toolpath::KinematicError model = workpiece.error_model();
+    const CuttingSetup cutting_setup = dome_cutting_setup();
+    const toolpath::KinematicError model = cutting_setup.error_model();
     double worst = 0.0;
     Vec2 there = Vec2::Zero();
     const bool along_v = chosen.direction == grid::TrackDirection::along_v;

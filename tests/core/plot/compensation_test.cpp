@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/plot/narrow_parts.h"
+#include "core/plot/unreachable_regions.h"
 #include "tests/core/plot/circle_ring.h"
 #include "tests/support/without_traps.h"
 
@@ -81,7 +81,7 @@ TEST(Compensation, PartsThatTheToolDoesNotFitIntoAreCounted) {
                             square_ring(50.0, 70.0),
                             square_ring(55.0, 57.0)};
     const auto too_narrow = [&](CutterSide side, double diameter) {
-        return count_narrow_parts(drawing, {.tool_diameter = diameter, .side = side});
+        return count_unreachable_regions(drawing, {.tool_diameter = diameter, .side = side});
     };
     EXPECT_EQ(too_narrow(CutterSide::inside, 1.0), 0U);
     EXPECT_EQ(too_narrow(CutterSide::inside, 3.0), 1U); // the frame

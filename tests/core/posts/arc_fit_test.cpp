@@ -45,7 +45,7 @@ Vec3 point_on_circle(double radius, double turn) {
 
 std::vector<FittedArc>
 arcs_of(const program::Program& program, double tolerance, const PostFormat& format = {}) {
-    return fit_arcs(program, axis_wording(program), format, tolerance);
+    return fit_arcs(program, axis_program_words(program), format, tolerance);
 }
 
 /// Between an arc and its feeds, measured without any of the code that fits: 20,000 points of the arc, each
@@ -244,7 +244,7 @@ TEST(ArcFit, SaysThatAControlHasNone) {
     PostFormat format;
     format.arcs.reset();
     const program::Program program = along([](double t) { return point_on_circle(20.0, t); }, 20);
-    EXPECT_THROW((void)fit_arcs(program, axis_wording(program), format, 0.01), Error);
+    EXPECT_THROW((void)fit_arcs(program, axis_program_words(program), format, 0.01), Error);
 }
 
 TEST(ArcFit, OneLineStandsForAllItsBlocks) {

@@ -29,7 +29,7 @@ Program program_with(std::vector<ProgramCutter> cutters) {
 }
 
 std::string text_of(const Program& program, const posts::PostFormat& format) {
-    return write_text(program, posts::axis_wording(program), format, {}).text;
+    return write_text(program, posts::axis_program_words(program), format, {}).text;
 }
 
 TEST(CutterComment, IsWrittenAsFusionDoes) {

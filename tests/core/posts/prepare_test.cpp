@@ -27,7 +27,7 @@ TEST(PreparedProgram, IsTheSameInAxisPositionsOfFourDecimals) {
     for (int n = 0; n < program.block_count(); ++n) {
         const auto k = static_cast<std::size_t>(n);
         EXPECT_EQ(ready.program.blocks[k].target, program.blocks[k].target);
-        EXPECT_FALSE(ready.wording.blocks[k].tip);
+        EXPECT_FALSE(ready.program_words.blocks[k].tip);
     }
     EXPECT_EQ(ready.tip_deviation, 0.0);
 }
@@ -82,7 +82,7 @@ protected:
 
 TEST_P(TipPrograms, SayWhereTheTipIsOnThePart) {
     for (std::size_t n = 0; n < now.ready.program.blocks.size(); ++n) {
-        const BlockWords& words = now.ready.wording.blocks[n];
+        const BlockWords& words = now.ready.program_words.blocks[n];
         const program::Block& block = now.ready.program.blocks[n];
         if (!block.moves() || !words.tip) {
             continue;
@@ -106,7 +106,7 @@ TEST_P(TipPrograms, BeginAndEndInMachinePositionsWithTheTableAtZero) {
         }
     }
     const auto words = [&](int n) -> const BlockWords& {
-        return now.ready.wording.blocks[static_cast<std::size_t>(n)];
+        return now.ready.program_words.blocks[static_cast<std::size_t>(n)];
     };
     ASSERT_GE(moves.size(), 4U);
     EXPECT_FALSE(words(moves[0]).tip);
@@ -140,7 +140,7 @@ TEST_P(TipPrograms, KeepRapidsWhereTheyWereFoundClear) {
     double feeds = 0.0;
     for (int n = 0; n < now.ready.program.block_count(); ++n) {
         const program::Block& block = now.ready.program.blocks[static_cast<std::size_t>(n)];
-        if (!block.moves() || !now.ready.wording.blocks[static_cast<std::size_t>(n)].tip) {
+        if (!block.moves() || !now.ready.program_words.blocks[static_cast<std::size_t>(n)].tip) {
             continue;
         }
         const double found = swing(now.machine, program::position_before(now.ready.program, n), block.target);
@@ -162,7 +162,8 @@ TEST_P(TipPrograms, KeepFeedsOnTheWayOfStraightAxesWhereThatIsMeant) {
     double after = 0.0;
     for (int n = 0; n < near.program.block_count(); ++n) {
         const program::Block& block = near.program.blocks[static_cast<std::size_t>(n)];
-        if (block.kind == program::BlockKind::feed && near.wording.blocks[static_cast<std::size_t>(n)].tip) {
+        if (block.kind == program::BlockKind::feed &&
+            near.program_words.blocks[static_cast<std::size_t>(n)].tip) {
             largest = std::max(largest,
                                swing(now.machine, program::position_before(near.program, n), block.target));
             after += block.duration;
@@ -190,7 +191,7 @@ TEST(PreparedProgram, WritesNoMoveOfTheWorkInMachinePositions) {
     for (const char* control : {"fanuc-tcp", "heidenhain", "linuxcnc-tcp"}) {
         const PreparedProgram ready = prepare(program, machine, post(control));
         ASSERT_EQ(ready.program.block_count(), 2) << control;
-        for (const BlockWords& words : ready.wording.blocks) {
+        for (const BlockWords& words : ready.program_words.blocks) {
             EXPECT_TRUE(words.tip) << control;
         }
     }
@@ -209,9 +210,9 @@ TEST(PreparedProgram, TurnsNoTableBelowAToolThatWasNotPulledOff) {
     const program::Block& first = ready.program.blocks[0];
     EXPECT_TRUE(first.named == program::AxisSet::only(z));
     EXPECT_EQ(first.target[z], machine.axis(z).max);
-    EXPECT_FALSE(ready.wording.blocks[0].tip);
-    EXPECT_FALSE(ready.wording.blocks[1].tip); // A and C to zero
-    EXPECT_TRUE(ready.wording.blocks[2].tip);
+    EXPECT_FALSE(ready.program_words.blocks[0].tip);
+    EXPECT_FALSE(ready.program_words.blocks[1].tip); // A and C to zero
+    EXPECT_TRUE(ready.program_words.blocks[2].tip);
 }
 
 TEST(PreparedProgram, SaysWhichLineNoNumberOfPiecesKeepsNearEnough) {

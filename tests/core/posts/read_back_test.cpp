@@ -40,7 +40,7 @@ struct Written {
             other.text += line + "\n";
         }
         try {
-            check_read_back(other, ready.program, ready.wording, format, arc_tolerance, "part");
+            check_read_back(other, ready.program, ready.program_words, format, arc_tolerance, "part");
         } catch (const Error& error) {
             return to_text(error.diagnostic());
         }
@@ -68,7 +68,7 @@ Written written(const std::string& post) {
     result.format = read_post("assets/posts/" + post + ".json");
     std::mt19937 random(77);
     result.ready = prepare(test::random_moves(machine, 12, random), machine, result.format);
-    result.listing = write_text(result.ready.program, result.ready.wording, result.format, {});
+    result.listing = write_text(result.ready.program, result.ready.program_words, result.format, {});
     return result;
 }
 
@@ -89,9 +89,9 @@ Written written_with_arcs() {
     test::add_move(program, point(0), 2.0);
     test::add_block(program, program::BlockKind::end);
     result.ready = prepare(program, machine, result.format);
-    result.ready.wording.arcs =
-        fit_arcs(result.ready.program, result.ready.wording, result.format, result.arc_tolerance);
-    result.listing = write_text(result.ready.program, result.ready.wording, result.format, {});
+    result.ready.program_words.arcs =
+        fit_arcs(result.ready.program, result.ready.program_words, result.format, result.arc_tolerance);
+    result.listing = write_text(result.ready.program, result.ready.program_words, result.format, {});
     return result;
 }
 
@@ -123,7 +123,7 @@ TEST(ReadBack, PassesATurnBesideNextToNothingOfAWay) {
     test::add_block(program, program::BlockKind::end);
     Written now;
     now.ready = prepare(program, machine, now.format);
-    now.listing = write_text(now.ready.program, now.ready.wording, now.format, {});
+    now.listing = write_text(now.ready.program, now.ready.program_words, now.format, {});
     EXPECT_EQ(now.verdict(now.lines()), "");
     const auto& blocks = now.ready.program.blocks;
     EXPECT_EQ(blocks[2].target[y], blocks[1].target[y]);

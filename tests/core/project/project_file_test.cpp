@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/project/assets.h"
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/without_traps.h"
 

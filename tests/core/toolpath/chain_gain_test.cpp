@@ -27,7 +27,7 @@ TEST_P(ChainGain, ReachesThePrototypeOnTheTwoBells) {
     const KinematicError error = test::two_bell_error();
     const grid::Grid start = test::inner_tracks(GetParam().nodes);
     grid::ChainOptimiser chain(error, start, TrackDirection::along_u, {});
-    const grid::ImproverState state = run(chain, {});
+    const grid::OptimiserState state = run(chain, {});
     EXPECT_NEAR(state.start.max, GetParam().uniform_max, 0.005);
     EXPECT_NEAR(state.start.mean, GetParam().uniform_mean, 0.0005);
     EXPECT_LE(state.of_best.max, GetParam().max);
@@ -49,7 +49,7 @@ TEST(ChainGainOfTheDome, PaysTheAxisAtTenNodesWithNextToNothingOfTheMean) {
     const KinematicError error = test::dome_error();
     const grid::Grid start = grid::Grid::uniform(10, 10);
     grid::ChainOptimiser chain(error, start, TrackDirection::along_u, {});
-    const grid::ImproverState state = run(chain, {});
+    const grid::OptimiserState state = run(chain, {});
     EXPECT_NEAR(state.start.max, 15.76, 0.005);
     EXPECT_NEAR(state.start.mean, 1.594, 0.0005);
     EXPECT_LE(state.of_best.max, 1.08); // a prototype, which let the axis be, reached 1.21 and 0.640
@@ -61,7 +61,7 @@ TEST(ChainGainOfTheDome, PaysTheAxisAtTenNodesWithNextToNothingOfTheMean) {
 TEST(ChainGainOfTheDome, LeapsOverTheRidgesAtTwentyNodes) {
     const KinematicError error = test::dome_error();
     grid::ChainOptimiser chain(error, grid::Grid::uniform(20, 20), TrackDirection::along_u, {});
-    const grid::ImproverState state = run(chain, {});
+    const grid::OptimiserState state = run(chain, {});
     EXPECT_LE(state.of_best.max, 0.32); // a prototype reached 0.434 and 0.203
     EXPECT_LE(state.of_best.mean, 0.178);
     EXPECT_LE(state.of_best.axis_max, state.start.axis_max);

@@ -4,7 +4,7 @@
 // The harmonic map: 35 and 35 % on the dome along u and v, 27 and 37 % on the bells. The nodes of each track
 // shared out by the monitor: 36, 40, 31 and 37 %, and the largest error falls by 93, 94, 53 and 94 %.
 #include "core/grid/elliptic_adaptation.h"
-#include "core/grid/grid_promise.h"
+#include "core/grid/quality_guard.h"
 #include "core/grid/redistribution.h"
 #include "tests/support/paths.h"
 
@@ -18,7 +18,7 @@ using grid::TrackDirection;
 
 constexpr double promised = 0.93; // of the uniform grid's mean error, at most
 
-grid::ImproverState adapted(const KinematicError& error, int n, TrackDirection direction) {
+grid::OptimiserState adapted(const KinematicError& error, int n, TrackDirection direction) {
     grid::EllipticAdaptation adaptation(error, Grid::uniform(n, n), {.direction = direction});
     return grid::run(adaptation, Progress());
 }
@@ -29,9 +29,9 @@ grid::ErrorSummary to_the_curve(const KinematicError& error, const Grid& grid, T
 
 void expect_gain(const KinematicError& error, TrackDirection direction) {
     const Grid uniform = Grid::uniform(20, 20);
-    const grid::ImproverState state = adapted(error, 20, direction);
+    const grid::OptimiserState state = adapted(error, 20, direction);
     EXPECT_GT(state.best.min_jacobian(), 0.0);
-    EXPECT_NE(state.status, grid::ImproverStatus::no_gain);
+    EXPECT_NE(state.status, grid::OptimiserStatus::no_gain);
 
     const grid::ErrorSummary before = error.on_path(uniform, direction, {});
     const grid::ErrorSummary after = error.on_path(state.best, direction, {});
@@ -57,7 +57,7 @@ TEST(EllipticGain, IsNeverNegativeWhateverTheSize) {
     // Odd sizes have nodes on the poles: there the uniform grid is hard to beat.
     for (const int n : {7, 12, 15}) {
         for (const KinematicError& error : {test::dome_error(), test::two_bell_error()}) {
-            const grid::ImproverState state = adapted(error, n, TrackDirection::along_v);
+            const grid::OptimiserState state = adapted(error, n, TrackDirection::along_v);
             EXPECT_LE(error.on_path(state.best, TrackDirection::along_v, {}).mean,
                       error.on_path(Grid::uniform(n, n), TrackDirection::along_v, {}).mean)
                 << n;
@@ -67,16 +67,16 @@ TEST(EllipticGain, IsNeverNegativeWhateverTheSize) {
 
 TEST(EllipticGain, IsZeroWhereTheTracksAreRulings) {
     const KinematicError error(test::patch("sine"), test::machine("rotary-tilt-listing"), false);
-    EXPECT_EQ(adapted(error, 10, TrackDirection::along_v).status, grid::ImproverStatus::no_gain);
+    EXPECT_EQ(adapted(error, 10, TrackDirection::along_v).status, grid::OptimiserStatus::no_gain);
 }
 
 /// Both keep the tracks where they are, so that the scallops stay what they were.
-void expect_gain_along_tracks(grid::GridImprover& improver,
+void expect_gain_along_tracks(grid::GridOptimiser& optimiser,
                               const KinematicError& error,
                               TrackDirection direction,
                               double least_gain) {
     const Grid uniform = Grid::uniform(20, 20);
-    const grid::ImproverState state = grid::run(improver, Progress());
+    const grid::OptimiserState state = grid::run(optimiser, Progress());
     const grid::ErrorSummary before = error.on_path(uniform, direction, {});
     const grid::ErrorSummary after = error.on_path(state.best, direction, {});
     EXPECT_LT(after.mean, (1.0 - least_gain) * before.mean);

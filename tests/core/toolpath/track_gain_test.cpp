@@ -15,7 +15,7 @@ namespace {
 
 using grid::ErrorSummary;
 using grid::Grid;
-using grid::ImproverState;
+using grid::OptimiserState;
 using grid::TrackDirection;
 
 struct GainCase {
@@ -39,7 +39,7 @@ KinematicError error_of(const GainCase& c) {
     return {test::patch(c.preset), test::machine(c.machine), false};
 }
 
-ImproverState optimised(const GainCase& c, int n, const grid::TrackSettings& settings = {}) {
+OptimiserState optimised(const GainCase& c, int n, const grid::TrackSettings& settings = {}) {
     const KinematicError error = error_of(c);
     grid::TrackOptimiser optimiser(error, Grid::uniform(n, n), c.direction, settings);
     return run(optimiser, {});
@@ -62,7 +62,7 @@ class TrackGain : public ::testing::TestWithParam<GainCase> {};
 
 // T17.
 TEST_P(TrackGain, CutsTheMeanByFortyFiveAndTheMaxByEightyFivePerCent) {
-    const ImproverState state = optimised(GetParam(), 20);
+    const OptimiserState state = optimised(GetParam(), 20);
     EXPECT_GE(cut(state.start.mean, state.of_best.mean), 0.45);
     EXPECT_GE(cut(state.start.max, state.of_best.max), 0.85);
     EXPECT_GE(cut(state.start.lmean, state.of_best.lmean), 0.40);
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheTip,
 class TrackGainOnThePath : public ::testing::TestWithParam<GainCase> {};
 
 TEST_P(TrackGainOnThePath, CutsTheDistanceFromTheSurfaceByAsMuch) {
-    const ImproverState state = optimised(GetParam(), 20);
+    const OptimiserState state = optimised(GetParam(), 20);
     const ErrorField before = zigzag_field(GetParam(), Grid::uniform(20, 20));
     const ErrorField after = zigzag_field(GetParam(), state.best);
     const ErrorSummary was = summary(before, Distance::closest, MoveKind::track);
@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(OfAllSurfaces,
 
 TEST(TrackGainQuick, KeepsNearlyAllOfTheGainForLiveEditing) {
     for (const GainCase& c : {dome_along_v, two_bell_along_u}) {
-        const ImproverState state = optimised(c, 20, grid::quick_track_settings());
+        const OptimiserState state = optimised(c, 20, grid::quick_track_settings());
         EXPECT_GE(cut(state.start.mean, state.of_best.mean), 0.43) << c;
         EXPECT_GE(cut(state.start.max, state.of_best.max), 0.85) << c;
     }
@@ -131,7 +131,7 @@ TEST(TrackGainQuick, KeepsNearlyAllOfTheGainForLiveEditing) {
 
 TEST(TrackGainSmall, IsNoLossOnGridsWithHardlyAnyNodes) {
     for (const int n : {2, 3, 4, 6}) {
-        const ImproverState state = optimised(dome_along_v, n);
+        const OptimiserState state = optimised(dome_along_v, n);
         const ErrorSummary was =
             summary(zigzag_field(dome_along_v, Grid::uniform(n, n)), Distance::closest, MoveKind::track);
         const ErrorSummary is =

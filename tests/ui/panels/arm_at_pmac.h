@@ -13,10 +13,10 @@ namespace millwright::test {
 
 struct ArmAtPmac {
     explicit ArmAtPmac(const render::PixelSize& screen = {1280, 800}) : person(screen) {
-        person.workshop().run("view.arm");
-        person.workshop().session().hand.choice.driver = "pmac";
-        person.workshop().session().hand.choice.address = pmac.address();
-        person.workshop().session().hand.arm_percent = 100;
+        person.app().run("view.arm");
+        person.app().view_state().manual.choice.driver = "pmac";
+        person.app().view_state().manual.choice.address = pmac.address();
+        person.app().view_state().manual.arm_percent = 100;
         person.frames(4);
     }
     void connect() {
@@ -24,7 +24,7 @@ struct ArmAtPmac {
         ASSERT_TRUE(person.live_until([&] { return is(drivers::DriverState::idle); }));
     }
     [[nodiscard]] bool is(drivers::DriverState state) {
-        const auto machine = person.workshop().look().controller;
+        const auto machine = person.app().look().connection;
         return machine.connected() && machine.status.state == state;
     }
     /// Whatever ended it, nothing moves any more and nobody says that it does.
@@ -44,12 +44,12 @@ struct ArmAtPmac {
     }
     void give_power() {
         if (is(drivers::DriverState::alarm)) {
-            person.workshop().run("machine.reset");
+            person.app().run("machine.reset");
             (void)person.live_until([&] { return is(drivers::DriverState::idle); });
         }
         if (!pmac.powered()) {
             person.click("hand/power/arm_enable");
-            const auto told = [&] { return person.workshop().look().controller.status.powered; };
+            const auto told = [&] { return person.app().look().connection.status.powered; };
             (void)person.live_until(
                 [&] { return (pmac.powered() && told()) || is(drivers::DriverState::alarm); });
         }
@@ -75,7 +75,7 @@ struct ArmAtPmac {
             person.hold_button(false);
             person.frames(2);
         }
-        FAIL() << "no jog in " << tries << " tries: " << person.workshop().look().controller.status.message;
+        FAIL() << "no jog in " << tries << " tries: " << person.app().look().connection.status.message;
     }
 
     PmacBench pmac;

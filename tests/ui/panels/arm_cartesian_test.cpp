@@ -1,7 +1,7 @@
 // U5: jogs along the axes of the base and of the tool, at an emulated PMAC over TCP, in real time.
 #include "core/base/units.h"
 #include "tests/ui/panels/arm_at_pmac.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,15 @@ protected:
         let_the_picture_follow();
     }
     void tell(const std::string& line) {
-        person_.workshop().controller().tell([&](drivers::Driver& driver) { (void)driver.command(line); });
+        person_.app().connection().tell([&](drivers::Driver& driver) { (void)driver.command(line); });
     }
-    [[nodiscard]] drivers::DriverStatus status() { return person_.workshop().look().controller.status; }
-    [[nodiscard]] Frame tool() { return person_.workshop().arm().tool(); }
+    [[nodiscard]] drivers::DriverStatus status() { return person_.app().look().connection.status; }
+    [[nodiscard]] Frame tool() { return person_.app().arm().tool(); }
     void let_the_picture_follow() {
         ASSERT_TRUE(person_.live_until([&] {
             double off = 0.0;
             for (int motor = 1; motor <= 4; ++motor) {
-                const double drawn = to_degrees(person_.workshop().arm().joints()[motor - 1]);
+                const double drawn = to_degrees(person_.app().arm().joints()[motor - 1]);
                 off = std::max(off, std::abs(drawn - bench_.pmac.degrees(motor)));
             }
             return off < 0.02 && bench_.rests();

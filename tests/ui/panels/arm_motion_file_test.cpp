@@ -4,7 +4,7 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/text_editor.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ using testing::HasSubstr;
 class ArmMotionFileS7 : public testing::Test {
 protected:
     ArmMotionFileS7() {
-        person_.workshop().run("view.arm");
+        person_.app().run("view.arm");
         person_.frames(4);
         tab("motion_file");
     }
@@ -31,7 +31,7 @@ protected:
         person_.click("lower/tabs/" + name);
         person_.frames(2);
     }
-    [[nodiscard]] const actions::ArmBench& arm() { return person_.workshop().arm(); }
+    [[nodiscard]] const actions::ArmWorkspace& arm() { return person_.app().arm(); }
     [[nodiscard]] std::string text() { return person_.project().arm.motion_file; }
     void write(const std::string& words) {
         person_.click("lower/text");
@@ -71,14 +71,14 @@ TEST_F(ArmMotionFileS7, IsCheckedWhileItIsWritten) {
 // Its end was behind the pane's border.
 TEST(ArmMotionFileFault, IsShownWhole) {
     test::Person person({1100, 700});
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
     person.click("lower/tabs/motion_file");
     person.frames(2);
     person.click("lower/text");
     person.type("G1 X300 ;\nG2 X0 Y0 Z10 I0 J0 K5 ;");
     person.frames(2);
-    const auto& faults = person.workshop().arm().motion_file().faults();
+    const auto& faults = person.app().arm().motion_file().faults();
     ASSERT_EQ(faults.size(), 1U);
     const widgets::Ui& ui = person.desktop().ui();
     ASSERT_GT(ui.words_width(fault_text(faults)),
@@ -99,16 +99,16 @@ TEST(FaultText, HasTheLineWhatToDoAndHowManyMoreThereAre) {
 TEST_F(ArmMotionFileS7, IsSimulatedFromHomeAndItsResultIsThatOfTheThesis) {
     write(path_of_the_thesis);
     EXPECT_TRUE(arm().motion_file().faults().empty());
-    person_.workshop().arm().set_joint(0, 0.5); // it begins at home wherever the arm is
+    person_.app().arm().set_joint(0, 0.5); // it begins at home wherever the arm is
     person_.click("lower/arm_simulate_motion");
     ASSERT_TRUE(arm().moving());
     EXPECT_GT(arm().duration(), 70.0); // 916 mm at 10 mm/s
     person_.frames(30);
     EXPECT_NEAR(arm().tool().translation().y(), 0.0, 1e-3);
     EXPECT_GT(arm().tool().translation().x(), 800.0);
-    person_.workshop().session().hand.arm_result_step = 10.0;
+    person_.app().view_state().manual.arm_result_step = 10.0;
     const auto file = person_.folder() / "result.txt";
-    person_.workshop().save_motion_result(file);
+    person_.app().save_motion_result(file);
     const std::string result = read_file(file);
     EXPECT_THAT(result,
                 testing::StartsWith("next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n"
@@ -143,7 +143,7 @@ TEST_F(ArmMotionFileS7, TheBlockThatIsUnderWayIsShownWithItsGoal) {
     EXPECT_TRUE(person_.sees("inspector/tool/block"));
     person_.keep("arm-block");
     while (arm().moving() && arm().block() != nullptr && arm().block()->line == 1) {
-        person_.workshop().advance(0.5);
+        person_.app().advance(0.5);
     }
     EXPECT_LT((arm().tool().translation() - Vec3(1100.0, 0.0, 650.0)).norm(), 6.0)
         << "half a second of 10 mm/s";
@@ -151,7 +151,7 @@ TEST_F(ArmMotionFileS7, TheBlockThatIsUnderWayIsShownWithItsGoal) {
     EXPECT_EQ(arm().block()->text, "G1 X0 Y0 Z-100 ;");
     EXPECT_LT((arm().block()->goal - Vec3(1100.0, 0.0, 550.0)).norm(), 1e-6);
     while (arm().moving()) {
-        person_.workshop().advance(0.5);
+        person_.app().advance(0.5);
     }
     EXPECT_EQ(arm().block(), nullptr);
     person_.frames(2);
@@ -161,10 +161,10 @@ TEST_F(ArmMotionFileS7, TheBlockThatIsUnderWayIsShownWithItsGoal) {
 TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
     const auto file = person_.folder() / "there.mot";
     write_file(file, "G1 Y50 ;\n");
-    person_.workshop().open_motion_file(file);
+    person_.app().open_motion_file(file);
     person_.frames(2);
     EXPECT_EQ(text(), "G1 Y50 ;\n");
-    person_.workshop().arm().set_joint(0, 0.2);
+    person_.app().arm().set_joint(0, 0.2);
     person_.frames(2);
     const Vec3 before = arm().tool().translation();
     person_.click("lower/arm_play_motion");
@@ -180,7 +180,7 @@ TEST_F(ArmMotionFileS7, IsOpenedSavedUndoneAndPlayedFromWhereTheArmIs) {
     person_.press_key(Key::z, true);
     EXPECT_EQ(text(), "G1 Y50 ;\n");
     const auto copy = person_.folder() / "copy.mot";
-    person_.workshop().save_motion_file(copy);
+    person_.app().save_motion_file(copy);
     EXPECT_EQ(read_file(copy), "G1 Y50 ;\n");
 }
 
@@ -188,7 +188,7 @@ TEST_F(ArmMotionFileS7, IsStreamedThroughTheDualPortedRamOfAnEmulatedCard) {
     write("G1 X0 Y100 Z-50 F2 ;");
     const Vec3 begin = arm::base_T_tool(arm().arm(), arm().home()).translation();
     person_.click("lower/arm_stream_motion");
-    EXPECT_THAT(person_.workshop().session().log,
+    EXPECT_THAT(person_.app().view_state().log,
                 ::testing::Contains(::testing::HasSubstr("The stream ignores F")));
     ASSERT_NE(arm().stream(), nullptr);
     person_.frames(20);
@@ -227,7 +227,7 @@ TEST_F(ArmMotionFileS7, FindsAgainAndReplacesOneOrAll) {
     person_.click("lower/find/replace");
     person_.frames(2);
     EXPECT_EQ(text(), "G1 Y7 ;\nG1 X100 ;\nG1 x10 ;");
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     person_.frames(2);
     EXPECT_EQ(text(), "G1 X10 ;\nG1 X100 ;\nG1 x10 ;");
     person_.click("lower/find/same_case");
@@ -239,7 +239,7 @@ TEST_F(ArmMotionFileS7, FindsAgainAndReplacesOneOrAll) {
     person_.click("lower/find/replace_all");
     person_.frames(2);
     EXPECT_EQ(text(), "G1 Y7 ;\nG1 Y70 ;\nG1 Y7 ;");
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     person_.frames(2);
     EXPECT_EQ(text(), "G1 Y7 ;\nG1 X100 ;\nG1 x10 ;");
 }
@@ -263,8 +263,7 @@ TEST_F(ArmMotionFileS7, EveryEditorSearchesByTheSameKeys) {
     person_.frames(4);
     EXPECT_LT(render::difference(first, person_.picture_of("lower/text"), 16).fraction, 0.002);
     tab("points");
-    EXPECT_FALSE(
-        person_.workshop().catalogue().find("program.find").permission(person_.workshop().look()).allowed);
+    EXPECT_FALSE(person_.app().catalogue().find("program.find").permission(person_.app().look()).allowed);
 }
 
 } // namespace

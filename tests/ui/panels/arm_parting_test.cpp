@@ -1,7 +1,7 @@
 // What a person is told of a card's protections, alarms and power, and what becomes of power when they leave.
 #include "core/base/error.h"
 #include "tests/ui/panels/arm_at_pmac.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using test::ArmAtPmac;
 
 TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPower) {
     ArmAtPmac bench;
-    const auto& log = bench.person.workshop().session().log;
+    const auto& log = bench.person.app().view_state().log;
     const auto told = [&] {
         return std::ranges::count_if(log, [](const std::string& text) {
             return text.find("Protections disabled") != std::string::npos;
@@ -36,19 +36,18 @@ TEST(ArmAtPmacF1, ProtectionsThatAreOffAreToldWhenItIsConnectedAndWhenItGetsPowe
 
 TEST(ArmAtPmacF2, TheLogKeepsAlarmsWithTheirReason) {
     ArmAtPmac bench;
-    const auto& log = bench.person.workshop().session().log;
+    const auto& log = bench.person.app().view_state().log;
     bench.connect();
     bench.give_power();
-    bench.person.workshop().run("machine.emergency_stop");
+    bench.person.app().run("machine.emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
-    bench.person.workshop().run("machine.reset");
+    bench.person.app().run("machine.reset");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     EXPECT_THAT(log, testing::Contains("Alarm: Emergency stop."));
     bench.pmac.vanish();
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
-    bench.person.workshop().run("machine.disconnect");
-    ASSERT_TRUE(
-        bench.person.live_until([&] { return !bench.person.workshop().look().controller.connected(); }));
+    bench.person.app().run("machine.disconnect");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().connection.connected(); }));
     EXPECT_THAT(log, testing::Contains(testing::StartsWith("Alarm: The link was lost")));
 }
 
@@ -57,16 +56,15 @@ TEST(ArmAtPmacF2, DisconnectingTakesThePower) {
     bench.connect();
     bench.give_power();
     ASSERT_TRUE(bench.pmac.powered());
-    bench.person.workshop().run("machine.disconnect");
-    ASSERT_TRUE(
-        bench.person.live_until([&] { return !bench.person.workshop().look().controller.connected(); }));
+    bench.person.app().run("machine.disconnect");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().connection.connected(); }));
     EXPECT_FALSE(bench.pmac.any_power());
-    EXPECT_FALSE(bench.person.workshop().look().controller.failure);
+    EXPECT_FALSE(bench.person.app().look().connection.failure);
 }
 
 TEST(ArmAtPmacF2, QuittingAsksSaysThatTheArmMovesAndTakesThePower) {
     ArmAtPmac bench;
-    auto& session = bench.person.workshop().session();
+    auto& view_state = bench.person.app().view_state();
     bench.connect();
     bench.give_power();
     bench.person.press_key(render::Key::q, true);
@@ -74,25 +72,24 @@ TEST(ArmAtPmacF2, QuittingAsksSaysThatTheArmMovesAndTakesThePower) {
     bench.person.keep("arm-quit-with-power");
     bench.person.press_key(render::Key::escape);
     EXPECT_TRUE(bench.pmac.powered());
-    EXPECT_FALSE(session.quit);
-    bench.person.workshop().controller().tell(
-        [](drivers::Driver& driver) { (void)driver.command("#1J=6000"); });
+    EXPECT_FALSE(view_state.quit);
+    bench.person.app().connection().tell([](drivers::Driver& driver) { (void)driver.command("#1J=6000"); });
     ASSERT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::running) && bench.pmac.moving(); }));
-    bench.person.workshop().run("arm.teach"); // refused; the project is as it was
+    bench.person.app().run("arm.teach"); // refused; the project is as it was
     bench.person.press_key(render::Key::q, true);
     ASSERT_TRUE(bench.person.sees("dialogs/running_job/running_job_stop"));
     bench.person.keep("arm-quit-in-motion");
     bench.person.click("dialogs/running_job/running_job_stop");
     bench.person.frames(2);
-    EXPECT_TRUE(session.quit);
+    EXPECT_TRUE(view_state.quit);
     EXPECT_FALSE(bench.pmac.any_power());
     EXPECT_LT(bench.pmac.degrees(1), 49.0);
 }
 
 TEST(ArmAtPmacF2, ACardThatDoesNotTellThatItsPowerIsGoneKeepsTheWindowOpen) {
     ArmAtPmac bench;
-    auto& session = bench.person.workshop().session();
+    auto& view_state = bench.person.app().view_state();
     bench.connect();
     bench.give_power();
     bench.person.press_key(render::Key::q, true);
@@ -100,13 +97,13 @@ TEST(ArmAtPmacF2, ACardThatDoesNotTellThatItsPowerIsGoneKeepsTheWindowOpen) {
     bench.pmac.pull_plug();
     bench.person.click("dialogs/running_job/running_job_stop");
     bench.person.frames(2);
-    EXPECT_FALSE(session.quit);
+    EXPECT_FALSE(view_state.quit);
     EXPECT_TRUE(bench.person.sees("hand/connection/failure"));
-    EXPECT_THAT(session.log.back(), testing::HasSubstr("motors are disabled"));
+    EXPECT_THAT(view_state.log.back(), testing::HasSubstr("motors are disabled"));
     bench.person.keep("arm-quit-unsure");
     bench.person.press_key(render::Key::q, true);
     bench.person.frames(2);
-    EXPECT_TRUE(session.quit); // a person has read it
+    EXPECT_TRUE(view_state.quit); // a person has read it
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // it.
 #include "core/base/files.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 
 #include <gtest/gtest.h>
 
@@ -19,17 +19,17 @@ using widgets::Rect;
 class ArmPath : public ::testing::Test {
 protected:
     ArmPath() : person_({1280, 1200}) { // room for the whole inspector
-        person_.workshop().run("view.arm");
+        person_.app().run("view.arm");
     }
 
-    [[nodiscard]] actions::ArmBench& arm() { return person_.workshop().arm(); }
+    [[nodiscard]] actions::ArmWorkspace& arm() { return person_.app().arm(); }
     void show() {
         person_.wait_idle();
         person_.click("inspector/path/shown");
         place({900.0, -50.0, 300.0});
     }
     void place(const Vec3& at) {
-        person_.workshop().edit("Place", [&](project::Project& draft) { draft.arm.path.at_mm = at; }, {});
+        person_.app().edit("Place", [&](project::Project& draft) { draft.arm.path.at_mm = at; }, {});
         person_.frames(2);
         arm().wait_idle();
         person_.frames(2);
@@ -103,14 +103,14 @@ TEST_F(ArmPath, ItsZeroIsDraggedInTheViewInOneStepOfUndo) {
     person_.frames(2);
     ASSERT_TRUE(arm().path());
     EXPECT_LT((arm().path()->wish.base_T_part.translation() - after).norm(), 1e-9);
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     EXPECT_LT((person_.project().arm.path.at_mm - before).norm(), 1e-9);
 }
 
 TEST_F(ArmPath, APlotIsSentToTheArm) {
     const auto plot = person_.folder() / "square.plt";
     write_file(plot, "IN;SP1;PU0,0;PD800,0,800,800,0,800,0,0;PU;"); // 20 mm
-    person_.workshop().receive({plot});
+    person_.app().receive({plot});
     person_.wait_idle();
     person_.frames(3);
     person_.click("menu/workspaces/arm");

@@ -3,8 +3,8 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "tests/ui/panels/arm_at_pmac.h"
-#include "ui/actions/arm_bench.h"
-#include "ui/panels/line_name.h"
+#include "ui/actions/arm_workspace.h"
+#include "ui/panels/command_line_label.h"
 #include "ui/panels/view_panel.h"
 
 #include <gmock/gmock.h>
@@ -53,7 +53,7 @@ TEST(ArmAtPmacU2, AJogRunsAsLongAsItIsHeldAndThePictureFollows) {
     ASSERT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
     EXPECT_GT(bench.pmac.degrees(1), 0.3);
     ASSERT_TRUE(bench.person.live_until([&] {
-        return std::abs(to_degrees(bench.person.workshop().arm().joints()[0]) - bench.pmac.degrees(1)) < 0.1;
+        return std::abs(to_degrees(bench.person.app().arm().joints()[0]) - bench.pmac.degrees(1)) < 0.1;
     }));
     EXPECT_NEAR(bench.pmac.degrees(2), 0.0, 0.1);
 }
@@ -61,7 +61,7 @@ TEST(ArmAtPmacU2, AJogRunsAsLongAsItIsHeldAndThePictureFollows) {
 TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
     using render::Key;
     ArmAtPmac bench({1280, 1200}); // room for the whole pane
-    const auto status = [&] { return bench.person.workshop().look().controller.status; };
+    const auto status = [&] { return bench.person.app().look().connection.status; };
     bench.connect();
     bench.person.click("lower/tabs/program");
     bench.person.frames(2);
@@ -130,12 +130,12 @@ TEST(ArmAtPmacU2, TheKeysHomeSendRunLoadSettingsAndKill) {
 TEST(ArmAtPmacU2, ATipThatIsDraggedStaysAndSaysWhy) {
     ArmAtPmac bench({1600, 1000});
     bench.connect();
-    const Vec3 before = bench.person.workshop().arm().tool().translation();
+    const Vec3 before = bench.person.app().arm().tool().translation();
     const widgets::Point tip = bench.person.place("view/tip").centre();
     bench.person.drag(tip, {tip.x + 60.0F, tip.y + 40.0F});
     bench.person.frames(2);
-    EXPECT_LT((bench.person.workshop().arm().tool().translation() - before).norm(), 1e-9);
-    EXPECT_NE(bench.person.workshop().session().log.back().find("follows the connected arm"),
+    EXPECT_LT((bench.person.app().arm().tool().translation() - before).norm(), 1e-9);
+    EXPECT_NE(bench.person.app().view_state().log.back().find("follows the connected arm"),
               std::string::npos);
     bench.person.keep("arm-dragged-connected");
 }
@@ -157,19 +157,19 @@ TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
     bench.person.live_until([] { return false; }, 0.3);
     EXPECT_LT(bench.pmac.last_motion(), 0.0);
     EXPECT_TRUE(bench.is(DriverState::idle));
-    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 0);
+    EXPECT_EQ(bench.person.app().view_state().manual.arm_joint, 0);
     bench.person.keep("arm-terminal");
     for (int n = 0; n < 4; ++n) {
         bench.person.press_key(Key::backspace);
     }
     bench.person.type("1P");
-    const int before = bench.person.workshop().look().controller.status.answer.number;
+    const int before = bench.person.app().look().connection.status.answer.number;
     bench.person.press_key(Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
-        const auto& answer = bench.person.workshop().look().controller.status.answer;
+        const auto& answer = bench.person.app().look().connection.status.answer;
         return answer.number > before && answer.state == drivers::CommandAnswer::State::done;
     }));
-    EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
+    EXPECT_EQ(bench.person.app().view_state().manual.commands.back(), "#1P");
 }
 
 TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
@@ -185,11 +185,11 @@ TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
     bench.person.type("1");
     bench.person.type("P");
     bench.person.frames(4);
-    EXPECT_TRUE(bench.person.workshop().session().hand.arm_keys);
+    EXPECT_TRUE(bench.person.app().view_state().manual.arm_keys);
     EXPECT_TRUE(bench.is(DriverState::idle));
     bench.person.press_key(Key::enter);
-    ASSERT_FALSE(bench.person.workshop().session().hand.commands.empty());
-    EXPECT_EQ(bench.person.workshop().session().hand.commands.back(), "#1P");
+    ASSERT_FALSE(bench.person.app().view_state().manual.commands.empty());
+    EXPECT_EQ(bench.person.app().view_state().manual.commands.back(), "#1P");
 }
 
 TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
@@ -209,16 +209,16 @@ TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {
     EXPECT_NEAR(bench.pmac.degrees(2), 0.0, 0.05);
     bench.person.hold_keys({});
     bench.person.frames(2);
-    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 1);
+    EXPECT_EQ(bench.person.app().view_state().manual.arm_joint, 1);
 }
 
 TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     using render::Key;
     ArmAtPmac bench;
-    const auto status = [&] { return bench.person.workshop().look().controller.status; };
+    const auto status = [&] { return bench.person.app().look().connection.status; };
     bench.connect();
     bench.give_power();
-    bench.person.workshop().run("machine.home");
+    bench.person.app().run("machine.home");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
     constexpr double settled = 0.2; // s of the card: a motor comes to rest a little after it is told so
@@ -236,11 +236,11 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     EXPECT_TRUE(bench.is(DriverState::idle));
     bench.person.click("lower/arm_simulate");
     ASSERT_TRUE(bench.person.live_until([&] {
-        const auto& faults = bench.person.workshop().arm().program().faults();
+        const auto& faults = bench.person.app().arm().program().faults();
         return !faults.empty() &&
                faults.front().message.find("X (joint 1) exceeds its limits") != std::string::npos;
     }));
-    EXPECT_EQ(bench.person.workshop().arm().program().faults().front().place.line, 3);
+    EXPECT_EQ(bench.person.app().arm().program().faults().front().place.line, 3);
     bench.person.frames(3); // from elsewhere it may be sound: it can be asked again, and is refused again
     bench.person.keep("arm-beyond-limits-simulated");
     for (const std::string& cut : bench.person.desktop().ui().cut_texts()) {
@@ -264,17 +264,17 @@ TEST(ArmAtPmacF2, LosingTheFocusEndsAJogThatIsStillHeld) {
 TEST(ArmAtPmacU6, ARedNoticeOfAFaultGoesWithIt) {
     ArmAtPmac bench;
     bench.connect();
-    bench.person.workshop().run("machine.emergency_stop");
+    bench.person.app().run("machine.emergency_stop");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
     actions::ActionQueue asked;
     asked.tell([](drivers::Driver& driver) { driver.home(); });
-    asked.show([](actions::Session&) { throw Error("the disk is full"); });
-    bench.person.workshop().perform(asked, true);
+    asked.show([](actions::ViewState&) { throw Error("the disk is full"); });
+    bench.person.app().perform(asked, true);
     bench.person.frames(3);
     const int last = bench.newest_notice();
     ASSERT_GE(last, 2);
     EXPECT_TRUE(bench.person.sees("notices/" + std::to_string(last - 1)));
-    bench.person.workshop().run("machine.reset");
+    bench.person.app().run("machine.reset");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     bench.person.frames(3);
     EXPECT_FALSE(bench.person.sees("notices/" + std::to_string(last - 1)));
@@ -309,7 +309,7 @@ TEST(ArmAtPmacF2, LeavingTheWorkspaceEndsAJog) {
     ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/plus_4", 4);
-    bench.person.workshop().run("view.design");
+    bench.person.app().run("view.design");
     EXPECT_TRUE(bench.person.live_until([&] { return bench.rests(); }));
 }
 
@@ -317,7 +317,7 @@ TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
     ArmAtPmac bench;
     bench.connect();
     bench.jog("hand/jog/plus_2", 2);
-    bench.person.workshop().run("machine.emergency_stop");
+    bench.person.app().run("machine.emergency_stop");
     ASSERT_TRUE(
         bench.person.live_until([&] { return bench.is(DriverState::alarm) && !bench.pmac.any_power(); }));
     bench.person.frames(30); // the button is still held
@@ -325,7 +325,7 @@ TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
     EXPECT_FALSE(bench.person.refusal("hand/jog/plus_2").empty());
     EXPECT_FALSE(bench.person.refusal("hand/power/arm_enable").empty());
     bench.person.hold_button(false);
-    bench.person.workshop().run("machine.reset");
+    bench.person.app().run("machine.reset");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     EXPECT_FALSE(bench.pmac.any_power()); // looked at, and still without
     bench.person.keep("arm-killed");
@@ -367,9 +367,9 @@ TEST(ArmAtPmacF2, AKeyThatIsHeldMovesNothingAfterAStop) {
     bench.person.frames(2);
     bench.person.hold_keys({Key::equal});
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
-    bench.person.workshop().run("machine.reset");
+    bench.person.app().run("machine.reset");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
-    bench.person.workshop().run("arm.enable");
+    bench.person.app().run("arm.enable");
     EXPECT_TRUE(bench.person.live_until([&] { return bench.pmac.powered(); }));
     nothing_begins("a kill, and power again");
     jog();
@@ -383,13 +383,13 @@ TEST(ArmAtPmacU6, APulledPlugIsToldAndJogsAreRefused) {
     bench.pmac.vanish();
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::alarm); }));
     EXPECT_TRUE(
-        bench.person.live_until([&] { return bench.person.workshop().look().controller.status.link_lost; }));
+        bench.person.live_until([&] { return bench.person.app().look().connection.status.link_lost; }));
     EXPECT_FALSE(bench.person.refusal("hand/jog/plus_1").empty());
 }
 
 TEST(ArmAtPmacU6, ACardThatIsNotThereIsToldInTheWindow) {
     ArmAtPmac bench;
-    bench.person.workshop().session().hand.choice.address = "/dev/no-such-port";
+    bench.person.app().view_state().manual.choice.address = "/dev/no-such-port";
     bench.person.click("hand/connection/machine_connect");
     ASSERT_TRUE(bench.person.live_until([&] { return bench.person.sees("hand/connection/failure"); }));
 }
@@ -403,7 +403,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     bench.person.type("I122");
     bench.person.press_key(render::Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
-        return bench.person.workshop().look().controller.status.answer.state ==
+        return bench.person.app().look().connection.status.answer.state ==
                drivers::CommandAnswer::State::done;
     }));
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
@@ -411,11 +411,11 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     bench.person.type("NONSENSE");
     bench.person.press_key(render::Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
-        return bench.person.workshop().look().controller.status.answer.state ==
+        return bench.person.app().look().connection.status.answer.state ==
                drivers::CommandAnswer::State::refused;
     }));
     std::vector<drivers::ConsoleLine> lines;
-    (void)bench.person.workshop().controller().driver()->console()->read(0, lines, 100'000);
+    (void)bench.person.app().connection().driver()->console()->read(0, lines, 100'000);
     std::vector<std::string> texts;
     for (const drivers::ConsoleLine& line : lines) {
         texts.push_back((line.sent ? "> " : "") + line.text);
@@ -430,8 +430,8 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
 TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
     constexpr const char* why = "The position is unknown: home the arm first.";
     ArmAtPmac bench;
-    const auto status = [&] { return bench.person.workshop().look().controller.status; };
-    bench.person.workshop().run("arm.teach"); // of the drawn arm
+    const auto status = [&] { return bench.person.app().look().connection.status; };
+    bench.person.app().run("arm.teach"); // of the drawn arm
     bench.connect();
     ASSERT_FALSE(status().position_known);
     bench.person.click("lower/tabs/points");
@@ -442,7 +442,7 @@ TEST(ArmAtPmacC6, NoPointIsTaughtWhileThePositionIsNotKnown) {
     EXPECT_EQ(bench.person.refusal("lower/again"), why);
     bench.person.keep("arm-teach-refused");
     bench.give_power();
-    bench.person.workshop().run("machine.home");
+    bench.person.app().run("machine.home");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
     bench.person.frames(2);
@@ -455,7 +455,7 @@ TEST(ArmAtPmacU2, ATaughtPointIsChosenAndInSight) {
     ArmAtPmac bench({1280, 800});
     bench.person.click("lower/tabs/points");
     for (int n = 0; n < 12; ++n) {
-        bench.person.workshop().run("arm.teach");
+        bench.person.app().run("arm.teach");
         bench.person.frames(2);
         EXPECT_TRUE(bench.person.sees("lower/points/point_" + std::to_string(n + 1))) << n;
     }
@@ -480,9 +480,9 @@ TEST(ArmAtPmacU2, TheJogButtonsAreInSightInASmallWindow) {
 
 TEST(ArmAtPmacU4, TheLineOfTheTerminalIsNoGCode) {
     ArmAtPmac bench;
-    EXPECT_EQ(line_name(bench.person.workshop().look()), "MDI");
+    EXPECT_EQ(command_line_label(bench.person.app().look()), "MDI");
     bench.connect();
-    EXPECT_EQ(line_name(bench.person.workshop().look()), "Line");
+    EXPECT_EQ(command_line_label(bench.person.app().look()), "Line");
     bench.person.click("lower/tabs/console");
     bench.person.frames(2);
     bench.person.keep("arm-terminal-line");
@@ -490,11 +490,11 @@ TEST(ArmAtPmacU4, TheLineOfTheTerminalIsNoGCode) {
 
 TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
     ArmAtPmac bench;
-    const auto& log = bench.person.workshop().session().log;
+    const auto& log = bench.person.app().view_state().log;
     bench.connect();
     const auto file = bench.person.folder() / "own.ini";
     write_file(file, "; ours\nI122=30\nI9999=3\n");
-    bench.person.workshop().load_card_settings(file);
+    bench.person.app().load_card_settings(file);
     ASSERT_TRUE(bench.person.live_until([&] { return log.back().find("rejected") != std::string::npos; }));
     EXPECT_THAT(log.back(), testing::HasSubstr("line 3: 'I9999=3' is rejected"));
 }
@@ -502,17 +502,17 @@ TEST(ArmAtPmacU2, ALineOfAFileThatTheCardRefusesIsToldWithItsPlace) {
 TEST(ArmAtPmac, TakesNoGCode) {
     ArmAtPmac bench;
     bench.connect();
-    bench.person.workshop().run("view.machine");
+    bench.person.app().run("view.machine");
     bench.person.wait_idle();
-    const auto now = bench.person.workshop().look();
-    EXPECT_FALSE(bench.person.workshop().catalogue().find("machine.run").permission(now).allowed);
+    const auto now = bench.person.app().look();
+    EXPECT_FALSE(bench.person.app().catalogue().find("machine.run").permission(now).allowed);
 }
 
 // It spoke of mm/min on joints, sent G10 to the card, and showed the table of another machine.
 TEST(ArmAtPmac, TheMachineWorkspaceShowsTheArmThatIsConnected) {
     ArmAtPmac bench;
     bench.connect();
-    bench.person.workshop().run("view.machine");
+    bench.person.app().run("view.machine");
     bench.person.frames(4);
     bench.person.keep("machine-at-arm");
     for (const char* const of_a_mill : {"hand/jog/speed",
@@ -524,16 +524,15 @@ TEST(ArmAtPmac, TheMachineWorkspaceShowsTheArmThatIsConnected) {
     }
     EXPECT_TRUE(bench.person.sees("hand/position/axes/X"));
     EXPECT_TRUE(bench.person.sees("inspector/connection/machine_disconnect"));
-    EXPECT_TRUE(scene_of(bench.person.workshop().look()).arm.has_value());
+    EXPECT_TRUE(scene_of(bench.person.app().look()).arm.has_value());
     bench.person.click("hand/view_arm");
-    EXPECT_EQ(bench.person.workshop().session().workspace, actions::Workspace::arm);
-    bench.person.workshop().run("view.machine");
+    EXPECT_EQ(bench.person.app().view_state().workspace, actions::Workspace::arm);
+    bench.person.app().run("view.machine");
     bench.person.frames(3);
     bench.person.click("inspector/connection/machine_disconnect");
-    ASSERT_TRUE(
-        bench.person.live_until([&] { return !bench.person.workshop().look().controller.connected(); }));
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().connection.connected(); }));
     bench.person.frames(3);
-    EXPECT_FALSE(scene_of(bench.person.workshop().look()).arm.has_value());
+    EXPECT_FALSE(scene_of(bench.person.app().look()).arm.has_value());
     EXPECT_TRUE(bench.person.sees("inspector/job/machine_run"));
 }
 

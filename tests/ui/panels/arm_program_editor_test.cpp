@@ -14,7 +14,7 @@ using render::Key;
 class ArmProgramEditorS7 : public testing::Test {
 protected:
     ArmProgramEditorS7() : person_({1280, 800}) {
-        person_.workshop().run("view.arm");
+        person_.app().run("view.arm");
         person_.frames(4);
         person_.click("lower/tabs/program");
         person_.frames(2);
@@ -86,7 +86,7 @@ TEST_F(ArmProgramEditorS7, AWholeProgramThatWasErasedComesBack) {
 }
 
 TEST_F(ArmProgramEditorS7, OtherChangesOfTheProjectAreNotTakenBackFromWithinTheText) {
-    person_.workshop().edit(
+    person_.app().edit(
         "Teach a point",
         [](project::Project& draft) {
             draft.arm.points.push_back({.name = "There", .joints_deg = {0.0, -90.0, 90.0, 0.0, 0.0}});

@@ -5,7 +5,7 @@
 #include "core/base/units.h"
 #include "core/project/taught_points.h"
 #include "tests/ui/panels/arm_at_pmac.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ protected:
                    "G1 X300 Y0 Z0 F150 ;\nG1 X0 Y0 Z-100 ;\nG1 X-300 Y0 Z100 ;\n");
     }
 
-    [[nodiscard]] Vec3 tip() { return person_.workshop().arm().tool().translation(); }
-    [[nodiscard]] drivers::DriverStatus status() { return person_.workshop().look().controller.status; }
+    [[nodiscard]] Vec3 tip() { return person_.app().arm().tool().translation(); }
+    [[nodiscard]] drivers::DriverStatus status() { return person_.app().look().connection.status; }
     [[nodiscard]] const std::vector<TaughtPoint>& points() { return person_.project().arm.points; }
     void keep(const std::string& name) { person_.keep("arm-show-" + name); }
 
@@ -77,7 +77,7 @@ protected:
     void let_the_picture_follow() {
         ASSERT_TRUE(person_.live_until([&] {
             for (int motor = 1; motor <= 4; ++motor) {
-                const double drawn = to_degrees(person_.workshop().arm().joints()[motor - 1]);
+                const double drawn = to_degrees(person_.app().arm().joints()[motor - 1]);
                 if (std::abs(drawn - bench_.pmac.degrees(motor)) > near_deg) {
                     return false;
                 }
@@ -141,8 +141,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
            [&] {
                farthest = std::max(farthest, tip().x());
                lowest = std::min(lowest, tip().z());
-               if (const auto& place = person_.workshop().arm().card_run().place();
-                   place && !place->sending) {
+               if (const auto& place = person_.app().arm().card_run().place(); place && !place->sending) {
                    EXPECT_GE(place->time, way.empty() ? 0.0 : way.back().time);
                    if (way.size() % 300 == 100) {
                        keep("under-way-" + std::to_string(way.size()));
@@ -154,7 +153,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     EXPECT_GT(way.back().share, 0.9);
     EXPECT_GT(way.back().line, way.back().lines - 8);
     EXPECT_LT(way.front().share, 0.3);
-    EXPECT_FALSE(person_.workshop().arm().card_run().place());
+    EXPECT_FALSE(person_.app().arm().card_run().place());
     EXPECT_NEAR(farthest, 1100.0, near_mm);
     EXPECT_NEAR(lowest, 550.0, near_mm);
     EXPECT_NEAR((tip() - Vec3(800.0, 0.0, 650.0)).norm(), 0.0, near_mm); // where it began
@@ -236,7 +235,7 @@ TEST_F(ArmAtPmacShow, PlayNamesTheFifthMotorThatIsNotDrivenAndTheRemedy) {
                                 "here: connect with its axis (\"Axis 5\", --axes XYZAB), or load settings "
                                 "without it";
     EXPECT_EQ(status().message, refusal);
-    EXPECT_THAT(person_.workshop().session().log, testing::Contains(testing::StartsWith(refusal)));
+    EXPECT_THAT(person_.app().view_state().log, testing::Contains(testing::StartsWith(refusal)));
     person_.frames(3);
     keep("axis-5-off");
     EXPECT_TRUE(bench_.is(DriverState::idle));

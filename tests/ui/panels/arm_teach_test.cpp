@@ -4,7 +4,7 @@
 #include "core/base/units.h"
 #include "core/project/taught_points.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ using widgets::Rect;
 class ArmTeaching : public ::testing::Test {
 protected:
     ArmTeaching() : person_({1280, 800}) {
-        person_.workshop().run("view.arm");
+        person_.app().run("view.arm");
         person_.frames(4);
     }
     void tab(const std::string& name) {
         person_.click("lower/tabs/" + name);
         person_.frames(2);
     }
-    [[nodiscard]] actions::ArmBench& arm() { return person_.workshop().arm(); }
+    [[nodiscard]] actions::ArmWorkspace& arm() { return person_.app().arm(); }
     [[nodiscard]] const std::vector<project::TaughtPoint>& points() { return person_.project().arm.points; }
     void turn_joint(int joint, double degrees) {
         JointPositions joints = arm().joints();
@@ -69,10 +69,10 @@ TEST_F(ArmTeaching, PointsAreRecordedNamedOrderedAndTakenBack) {
     person_.click("lower/up");
     EXPECT_EQ(points()[1].name, "Above the vice");
     person_.keep("arm-points");
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     EXPECT_EQ(points()[2].name, "Above the vice");
     for (int n = 0; n < 3; ++n) { // speed, way, name
-        person_.workshop().run("edit.undo");
+        person_.app().run("edit.undo");
     }
     EXPECT_EQ(points()[2].name, "Point 3");
     person_.frames(2);
@@ -103,17 +103,17 @@ TEST_F(ArmTeaching, PointsAreSavedAndOpenedAsAFile) {
     teach_three();
     const auto taught = points();
     const auto file = person_.folder() / "points.json";
-    person_.workshop().save_points(file);
-    person_.workshop().edit("Clear", [](project::Project& draft) { draft.arm.points.clear(); }, {});
-    person_.workshop().open_points(file);
+    person_.app().save_points(file);
+    person_.app().edit("Clear", [](project::Project& draft) { draft.arm.points.clear(); }, {});
+    person_.app().open_points(file);
     EXPECT_EQ(points(), taught);
     EXPECT_EQ(project::read_taught_points(file), taught);
-    person_.workshop().run("arm.save_points");
+    person_.app().run("arm.save_points");
     person_.frames(3);
     EXPECT_TRUE(person_.sees("dialogs/files/save"));
     person_.press_key(render::Key::escape);
     person_.frames(2);
-    person_.workshop().run("arm.open_points");
+    person_.app().run("arm.open_points");
     person_.frames(3);
     EXPECT_TRUE(person_.sees("dialogs/files/open"));
 }
@@ -121,13 +121,13 @@ TEST_F(ArmTeaching, PointsAreSavedAndOpenedAsAFile) {
 TEST_F(ArmTeaching, AnArmOfAFileOfOnesOwnIsDrawnAndABrokenOneIsNot) {
     const auto file = person_.folder() / "mine.json";
     std::filesystem::copy_file("assets/arms/scara.json", file);
-    person_.workshop().open_arm(file);
+    person_.app().open_arm(file);
     person_.frames(3);
     EXPECT_EQ(arm().name(), std::filesystem::absolute(file).string());
     EXPECT_EQ(arm().arm().joint_count(), 4);
 
     write_file(file, "{}");
-    EXPECT_THROW(person_.workshop().open_arm(file), Error);
+    EXPECT_THROW(person_.app().open_arm(file), Error);
     EXPECT_EQ(arm().arm().joint_count(), 4);
 }
 
@@ -153,7 +153,7 @@ TEST_F(ArmTeaching, AProgramIsWrittenWithItsFaultsByLineAndSimulated) {
     EXPECT_NEAR(to_degrees(arm().joints()[0]), 30.0, 0.05);
     EXPECT_NEAR(to_degrees(arm().joints()[1]), -80.0, 0.05);
     person_.keep("arm-program");
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     EXPECT_EQ(person_.project().arm.program, "ABS LINEAR\nTM800 TA100\nX30 Y-80\nGO AWAY"); // the erasing
 }
 

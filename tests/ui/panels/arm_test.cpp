@@ -2,7 +2,7 @@
 // of Saengsasri, Nittayachin 1996.
 #include "core/base/units.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/window.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,7 @@
 namespace millwright::panels {
 namespace {
 
-using actions::ArmBench;
+using actions::ArmWorkspace;
 using actions::Workspace;
 using test::Person;
 using widgets::Point;
@@ -23,13 +23,13 @@ using widgets::Rect;
 /// A person who has come to the workspace by its key.
 struct ArmWorkspacePerson {
     explicit ArmWorkspacePerson(const render::PixelSize& screen = {1280, 800}) : person(screen) {
-        person.workshop().run("view.arm");
+        person.app().run("view.arm");
         person.frames(4);
     }
-    [[nodiscard]] const ArmBench& arm() { return person.workshop().arm(); }
+    [[nodiscard]] const ArmWorkspace& arm() { return person.app().arm(); }
     [[nodiscard]] Vec3 tip() { return arm().tool().translation(); }
     void goal(const Vec3& tip, const Vec3& axis) {
-        person.workshop().arm().set_goal(tip, axis);
+        person.app().arm().set_goal(tip, axis);
         person.frames();
     }
 
@@ -43,7 +43,7 @@ Point middle_of(const Rect& rect) {
 TEST(ArmWorkspace, OpensWithTheArmAtHomeAndShowsEveryPart) {
     for (const render::PixelSize screen : {render::PixelSize{1280, 800}, render::PixelSize{1600, 1000}}) {
         ArmWorkspacePerson bench(screen);
-        EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::arm);
+        EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::arm);
         EXPECT_EQ(bench.arm().name(), "motoman-l3");
         EXPECT_LT((bench.tip() - Vec3(800.0, 0.0, 650.0)).norm(), 1e-9);
         for (const char* path : {"hand/connection/driver",
@@ -114,7 +114,7 @@ TEST(ArmWorkspace, ATipThatIsDraggedTooFarStaysWithAReason) {
 /// ImGui's own fields take everything back by Escape.
 TEST(ArmWorkspace, EscapeLeavesAProgramAsItWasTyped) {
     Person person;
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
     person.click("lower/tabs/program");
     person.frames(2);
@@ -122,17 +122,17 @@ TEST(ArmWorkspace, EscapeLeavesAProgramAsItWasTyped) {
     person.type("LINEAR\nX5");
     person.press_key(render::Key::escape);
     person.frames(3);
-    EXPECT_EQ(person.workshop().arm().program().text(), "LINEAR\nX5");
+    EXPECT_EQ(person.app().arm().program().text(), "LINEAR\nX5");
     person.frames(60); // so that it is no double click
     person.click("lower/text");
     person.type("Y7");
-    EXPECT_THAT(person.workshop().arm().program().text(), testing::HasSubstr("Y7"));
-    EXPECT_THAT(person.workshop().arm().program().text(), testing::HasSubstr("LINEAR\nX5"));
+    EXPECT_THAT(person.app().arm().program().text(), testing::HasSubstr("Y7"));
+    EXPECT_THAT(person.app().arm().program().text(), testing::HasSubstr("LINEAR\nX5"));
 }
 
 TEST(ArmWorkspace, AWholeProgramIsSelectedAndReplaced) {
     Person person;
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
     person.click("lower/tabs/program");
     person.frames(2);
@@ -142,14 +142,14 @@ TEST(ArmWorkspace, AWholeProgramIsSelectedAndReplaced) {
     person.keep("arm-program-selected");
     person.type("RAPID");
     person.frames(3);
-    EXPECT_EQ(person.workshop().arm().program().text(), "RAPID");
+    EXPECT_EQ(person.app().arm().program().text(), "RAPID");
 }
 
 TEST(ArmWorkspace, KeepsItsTipAboveTheFloor) {
     Person person;
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
-    actions::ArmBench& arm = person.workshop().arm();
+    actions::ArmWorkspace& arm = person.app().arm();
     arm.move_tip({900.0, 0.0, -880.0});
     EXPECT_EQ(arm.refusal(), "");
     arm.move_tip({900.0, 0.0, -950.0});
@@ -197,7 +197,7 @@ TEST(ArmWorkspaceK6, ShowsItsDrivesLive) {
     bench.person.frames(3);
     EXPECT_TRUE(bench.person.sees("lower/drives/drive_5"));
     const auto before = bench.person.picture_of("lower/drives");
-    bench.person.workshop().arm().set_joint(1, from_degrees(-60.0));
+    bench.person.app().arm().set_joint(1, from_degrees(-60.0));
     bench.person.frames(3);
     bench.person.keep("arm-drives");
     EXPECT_GT(render::difference(before, bench.person.picture_of("lower/drives"), 16).fraction, 0.001);
@@ -281,9 +281,9 @@ TEST(ArmWorkspaceU2, TheKeysOfTheThesisMoveTheChosenJointOnlyWhileTheyAreGiven) 
     EXPECT_GT(bench.arm().joints()[2], 0.5 * pi + 1e-3);
     EXPECT_DOUBLE_EQ(bench.arm().joints()[0], 0.0);
     bench.person.press_key(render::Key::digit_2, false, true); // Shift is down where + is Shift and =
-    EXPECT_EQ(bench.person.workshop().session().hand.arm_joint, 1);
+    EXPECT_EQ(bench.person.app().view_state().manual.arm_joint, 1);
     bench.person.press_key(render::Key::x);
-    EXPECT_FALSE(bench.person.workshop().session().hand.arm_keys);
+    EXPECT_FALSE(bench.person.app().view_state().manual.arm_keys);
     bench.person.keep("arm-keys");
 }
 
@@ -292,12 +292,12 @@ TEST(ArmWorkspaceU4, AColonLeadsToTheTerminal) {
     bench.person.click("hand/jog/keys");
     bench.person.press_key(render::Key::semicolon, false, true);
     bench.person.frames(2);
-    EXPECT_EQ(bench.person.workshop().session().lower_tab_now(), actions::LowerTab::console);
+    EXPECT_EQ(bench.person.app().view_state().lower_tab_now(), actions::LowerTab::console);
 }
 
 TEST(ArmWorkspaceS5, FourViewsShowItFromAboveFromTheFrontAndFromTheRight) {
     ArmWorkspacePerson bench({1600, 1000});
-    bench.person.workshop().run("view.four");
+    bench.person.app().run("view.four");
     bench.person.frames(4);
     for (const char* path : {"view/top/tip", "view/front/tip", "view/right/tip", "view/iso/tip"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
@@ -305,7 +305,7 @@ TEST(ArmWorkspaceS5, FourViewsShowItFromAboveFromTheFrontAndFromTheRight) {
     bench.person.keep("arm-four");
     bench.person.click("view/four"); // the button in the view means the same
     bench.person.frames(4);
-    EXPECT_FALSE(bench.person.workshop().session().four_views);
+    EXPECT_FALSE(bench.person.app().view_state().four_views);
     EXPECT_FALSE(bench.person.sees("view/top/tip"));
     bench.person.click("view/four");
     bench.person.frames(4);

@@ -9,25 +9,25 @@
 namespace millwright::test {
 
 [[nodiscard]] inline bool machine_is(Person& person, drivers::DriverState state) {
-    const auto machine = person.workshop().look().controller;
+    const auto machine = person.app().look().connection;
     return machine.connected() && machine.status.state == state;
 }
 
-/// To what the session names; a machine that begins locked is unlocked.
+/// To the machine that the view state names; a machine that begins locked is unlocked.
 inline void connect(Person& person) {
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("inspector/connection/machine_connect");
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().connection.connected(); }));
     if (machine_is(person, drivers::DriverState::alarm)) {
-        person.workshop().run("machine.reset");
+        person.app().run("machine.reset");
     }
     ASSERT_TRUE(person.live_until([&] { return machine_is(person, drivers::DriverState::idle); }));
 }
 
 inline void connect(Person& person, GrblBench& grbl) {
-    person.workshop().session().hand.choice.driver = "grbl";
-    person.workshop().session().hand.choice.address = grbl.port();
+    person.app().view_state().manual.choice.driver = "grbl";
+    person.app().view_state().manual.choice.address = grbl.port();
     connect(person);
 }
 

@@ -20,7 +20,7 @@ bool shows(const render::Picture& picture, const render::Pixel& wanted) {
 TEST(ColorDialog, GivesTheViewOtherColoursAndKeepsThem) {
     Person person;
     const render::Picture before = person.picture_of("view/iso");
-    person.workshop().run("view.colors");
+    person.app().run("view.colors");
     person.frames();
     EXPECT_TRUE(person.sees("dialogs/colors/background"));
     person.fill_in("dialogs/colors/background", "#20ff40");
@@ -47,13 +47,13 @@ TEST(ColorDialog, GivesTheViewOtherColoursAndKeepsThem) {
     person.keep("colors-chosen");
     const auto kept = project::read_colors(person.folder() / "colors.json");
     EXPECT_EQ(kept, (project::ColorChoices{{"background", "#20ff40"}, {"surface_u", "#ff0000"}}));
-    actions::Workshop next({.assets = "assets",
-                            .log_folder = person.folder() / "jobs-2",
-                            .settings = person.folder() / "recent.json",
-                            .recovery = {},
-                            .wake = [] {}});
-    EXPECT_EQ(next.session().colors, person.workshop().session().colors);
-    person.workshop().run("view.colors");
+    actions::AppController next({.assets = "assets",
+                                 .log_folder = person.folder() / "jobs-2",
+                                 .settings = person.folder() / "recent.json",
+                                 .recovery = {},
+                                 .wake = [] {}});
+    EXPECT_EQ(next.view_state().colors, person.app().view_state().colors);
+    person.app().run("view.colors");
     person.frames();
     person.click("dialogs/colors/theme");
     person.click("dialogs/colors/close");
@@ -65,24 +65,24 @@ TEST(ColorDialog, GivesTheViewOtherColoursAndKeepsThem) {
 TEST(ColorDialog, AFileThatIsNoneIsNamedAndDoesNotStopTheStart) {
     Person person;
     write_file(person.folder() / "colors.json", "[{\"layer\": \"surface\"}]");
-    actions::Workshop next({.assets = "assets",
-                            .log_folder = person.folder() / "jobs-2",
-                            .settings = person.folder() / "recent.json",
-                            .recovery = {},
-                            .wake = [] {}});
-    ASSERT_FALSE(next.session().notices.empty());
-    EXPECT_THAT(next.session().notices.back().place, ::testing::HasSubstr("colors.json"));
+    actions::AppController next({.assets = "assets",
+                                 .log_folder = person.folder() / "jobs-2",
+                                 .settings = person.folder() / "recent.json",
+                                 .recovery = {},
+                                 .wake = [] {}});
+    ASSERT_FALSE(next.view_state().notices.empty());
+    EXPECT_THAT(next.view_state().notices.back().place, ::testing::HasSubstr("colors.json"));
 }
 
 TEST(ObliqueView, IsAnActionAndAKeyInTheView) {
     Person person;
     const render::Picture before = person.picture_of("view/iso");
-    person.workshop().run("view.oblique");
+    person.app().run("view.oblique");
     person.frames(3);
     const render::Picture oblique = person.picture_of("view/iso");
     EXPECT_NE(oblique, before);
     person.keep("view-oblique");
-    person.workshop().run("view.into_space");
+    person.app().run("view.into_space");
     person.frames(3);
     EXPECT_NE(person.picture_of("view/iso"), oblique);
 }
@@ -91,11 +91,11 @@ TEST(ProducedSurfaceLayer, StandsBesideTheDesignedSurface) {
     Person person({1600, 1000});
     person.press_key(render::Key::f4);
     person.wait_idle();
-    person.workshop().run("view.layer_produced");
+    person.app().run("view.layer_produced");
     person.frames(3);
     const render::Picture over_the_designed = person.picture_of("view/iso");
     person.keep("produced-over-designed");
-    person.workshop().run("view.layer_surface");
+    person.app().run("view.layer_surface");
     person.frames(3);
     // The designed surface, within a hundredth of a millimetre of it, hid about half of it.
     EXPECT_LT(render::difference(over_the_designed, person.picture_of("view/iso"), 8).fraction, 0.02);

@@ -133,14 +133,13 @@ TEST(DesignPanel, EnterGoesOnThroughTheControlNet) {
 
 /// To degree `u` of the rows and `v` of the columns, of the same shape.
 void elevate(Person& person, int u, int v) {
-    person.workshop().edit("Elevate",
-                           [u, v](project::Project& draft) {
-                               const geometry::Surface now = project::surface_of(draft.surface);
-                               draft.surface.patches = {
-                                   geometry::elevated(now.patches().front(), u, v).net()};
-                               draft.surface.preset.clear();
-                           },
-                           {});
+    person.app().edit("Elevate",
+                      [u, v](project::Project& draft) {
+                          const geometry::Surface now = project::surface_of(draft.surface);
+                          draft.surface.patches = {geometry::elevated(now.patches().front(), u, v).net()};
+                          draft.surface.preset.clear();
+                      },
+                      {});
     person.wait_idle();
 }
 
@@ -172,7 +171,7 @@ TEST(DesignPanel, AllColumnsOfALargeNetAreReached) {
     }
     person.fill_in("inspector/net/row3/column12", "7");
     EXPECT_EQ(net(person).point(3, 12).z(), 7.0);
-    person.workshop().session().selected = {{geometry::PatchId(0), 1, 0}};
+    person.app().view_state().selected = {{geometry::PatchId(0), 1, 0}};
     person.frames();
     EXPECT_TRUE(person.sees("inspector/net/row1/column0")) << "the column of the point that is selected";
 }

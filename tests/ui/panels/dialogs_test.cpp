@@ -29,7 +29,7 @@ fs::path opened_copy(Person& person) {
 }
 
 void change(Person& person) {
-    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    person.app().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
     person.frames();
 }
 
@@ -45,7 +45,7 @@ TEST(UnsavedChanges, AreNotAskedAboutWhenThereAreNone) {
     (void)opened_copy(person);
     choose_sample(person);
     EXPECT_FALSE(person.sees("dialogs/unsaved/unsaved_save"));
-    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_EQ(person.app().look().document.file.filename(), "sine.json");
 }
 
 TEST(UnsavedChanges, CancelKeepsEverythingAsItIs) {
@@ -55,7 +55,7 @@ TEST(UnsavedChanges, CancelKeepsEverythingAsItIs) {
     choose_sample(person);
     person.click("dialogs/unsaved/unsaved_cancel");
     EXPECT_FALSE(person.sees("dialogs/unsaved/unsaved_cancel"));
-    EXPECT_EQ(person.workshop().look().document.file, file);
+    EXPECT_EQ(person.app().look().document.file, file);
     EXPECT_EQ(person.project().grid.nv, 12);
     EXPECT_EQ(project::read_project(file).grid.nv, 20);
 }
@@ -66,7 +66,7 @@ TEST(UnsavedChanges, DiscardGoesOnAndLeavesTheFileAlone) {
     change(person);
     choose_sample(person);
     person.click("dialogs/unsaved/unsaved_discard");
-    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_EQ(person.app().look().document.file.filename(), "sine.json");
     EXPECT_EQ(project::read_project(file).grid.nv, 20);
 }
 
@@ -76,45 +76,45 @@ TEST(UnsavedChanges, SaveGoesOnOnceTheyAreSaved) {
     change(person);
     choose_sample(person);
     person.click("dialogs/unsaved/unsaved_save");
-    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
+    EXPECT_EQ(person.app().look().document.file.filename(), "sine.json");
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
 }
 
 TEST(UnsavedChanges, OfAProjectWithoutAFileAskForOneFirst) {
     Person person;
     change(person);
-    person.workshop().run("file.quit");
+    person.app().run("file.quit");
     person.frames();
     person.click("dialogs/unsaved/unsaved_save");
     person.frames();
-    EXPECT_FALSE(person.workshop().session().quit);
+    EXPECT_FALSE(person.app().view_state().quit);
     person.fill_in("dialogs/files/name", (person.folder() / "new.json").string());
-    EXPECT_TRUE(person.workshop().session().quit);
+    EXPECT_TRUE(person.app().view_state().quit);
     EXPECT_EQ(project::read_project(person.folder() / "new.json").grid.nv, 12);
 }
 
 TEST(UnsavedChanges, GivingUpTheFileGivesUpTheLeaving) {
     Person person;
     change(person);
-    person.workshop().run("file.quit");
+    person.app().run("file.quit");
     person.frames();
     person.click("dialogs/unsaved/unsaved_save");
     person.frames();
     person.press_key(render::Key::escape);
-    EXPECT_FALSE(person.workshop().look().asks());
-    EXPECT_FALSE(person.workshop().session().quit);
+    EXPECT_FALSE(person.app().look().asks());
+    EXPECT_FALSE(person.app().view_state().quit);
 }
 
 TEST(UnsavedChanges, HoldTheWindowOpenUntilAnswered) {
     Person person;
-    person.workshop().run("file.quit");
-    EXPECT_TRUE(person.workshop().session().quit);
+    person.app().run("file.quit");
+    EXPECT_TRUE(person.app().view_state().quit);
     Person other;
     change(other);
     other.press_key(render::Key::q, true);
-    EXPECT_FALSE(other.workshop().session().quit);
+    EXPECT_FALSE(other.app().view_state().quit);
     other.click("dialogs/unsaved/unsaved_discard");
-    EXPECT_TRUE(other.workshop().session().quit);
+    EXPECT_TRUE(other.app().view_state().quit);
 }
 
 TEST(UnsavedChanges, AFailedSaveEndsTheLeaving) {
@@ -125,10 +125,10 @@ TEST(UnsavedChanges, AFailedSaveEndsTheLeaving) {
     fs::remove(file);
     fs::create_directory(file); // nothing can be written there
     person.click("dialogs/unsaved/unsaved_save");
-    EXPECT_EQ(person.workshop().look().document.file, file);
+    EXPECT_EQ(person.app().look().document.file, file);
     EXPECT_EQ(person.project().grid.nv, 12);
-    EXPECT_TRUE(person.workshop().look().changed());
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_TRUE(person.app().look().changed());
+    EXPECT_FALSE(person.app().look().asks());
 }
 
 TEST(UndoAcrossFiles, BringsBackTheFileTogetherWithItsProject) {
@@ -139,30 +139,30 @@ TEST(UndoAcrossFiles, BringsBackTheFileTogetherWithItsProject) {
     person.click("dialogs/unsaved/unsaved_discard");
     person.wait_idle();
     person.press_key(render::Key::z, true);
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_EQ(now.document.file, file);
     EXPECT_EQ(now.project.grid.nv, 12);
     EXPECT_TRUE(now.changed());
     person.press_key(render::Key::y, true);
-    EXPECT_EQ(person.workshop().look().document.file.filename(), "sine.json");
-    EXPECT_FALSE(person.workshop().look().changed());
+    EXPECT_EQ(person.app().look().document.file.filename(), "sine.json");
+    EXPECT_FALSE(person.app().look().changed());
 }
 
 TEST(Dialogs, KeysReachTheMachineAlone) {
     Person person;
     person.open(dome_project);
-    person.workshop().session().machine_speed = 1.0;
-    person.workshop().run("view.machine");
+    person.app().view_state().machine_speed = 1.0;
+    person.app().run("view.machine");
     person.press_key(render::Key::f9);
     person.frames(3);
-    ASSERT_TRUE(person.workshop().look().job.running);
+    ASSERT_TRUE(person.app().look().job.running);
     person.press_key(render::Key::o, true);
     ASSERT_TRUE(person.sees("dialogs/files/entries"));
     person.press_key(render::Key::f3);
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::machine);
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::machine);
     person.click("emergency/machine_emergency_stop");
-    person.workshop().wait_idle();
-    const actions::JobView job = person.workshop().look().job;
+    person.app().wait_idle();
+    const actions::JobView job = person.app().look().job;
     EXPECT_TRUE(job.failure || (job.outcome && job.outcome->end == jobs::JobEnd::fault));
 }
 
@@ -185,13 +185,13 @@ TEST(RecoveryDialog, RecoverGoesOnWithTheUnsavedWork) {
     Person person({1280, 800}, scratch.path());
     ASSERT_TRUE(person.sees("dialogs/recovery/recovery_recover"));
     person.click("dialogs/recovery/recovery_recover");
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_EQ(now.project.grid.nu, 33);
     EXPECT_EQ(now.document.file, fs::absolute(dome_project));
     EXPECT_TRUE(now.changed());
     EXPECT_FALSE(now.asks());
     EXPECT_FALSE(is_empty_of_copies(scratch.path())) << "it is still unsaved";
-    person.workshop().close();
+    person.app().close();
     EXPECT_TRUE(is_empty_of_copies(scratch.path()));
 }
 
@@ -199,26 +199,25 @@ TEST(RecoveryDialog, FilesFromOutsideWaitForTheAnswer) {
     const test::ScratchFolder scratch;
     leave_behind(scratch.path(), fs::absolute(dome_project));
     Person person({1280, 800}, scratch.path());
-    person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt")});
+    person.app().receive({fs::absolute("assets/samples/plot/moves.plt")});
     person.frames();
     EXPECT_TRUE(person.project().plot.file.empty()) << "opened behind the question";
-    EXPECT_EQ(person.workshop().session().log.back(),
-              "moves.plt will be opened after you answer the prompt.");
+    EXPECT_EQ(person.app().view_state().log.back(), "moves.plt will be opened after you answer the prompt.");
     person.click("dialogs/recovery/recovery_recover");
     person.wait_idle();
     EXPECT_EQ(person.project().grid.nu, 33);
     EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::plot);
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::plot);
 }
 
 TEST(ReceivedFiles, OfSeveralTheOneThatIsOpenedIsNamed) {
     Person person;
-    person.workshop().receive({fs::absolute("assets/samples/plot/moves.plt"),
-                               fs::absolute("assets/samples/plot/figures.plt"),
-                               fs::absolute(dome_project)});
+    person.app().receive({fs::absolute("assets/samples/plot/moves.plt"),
+                          fs::absolute("assets/samples/plot/figures.plt"),
+                          fs::absolute(dome_project)});
     person.wait_idle();
     EXPECT_EQ(person.project().plot.file.filename(), "moves.plt");
-    const auto& log = person.workshop().session().log;
+    const auto& log = person.app().view_state().log;
     EXPECT_EQ(log.back(), "Only one file can be opened at a time. Of these 3, Millwright opens moves.plt.");
 }
 
@@ -227,14 +226,14 @@ TEST(ReceivedFiles, WaitBehindAQuestionAboutUnsavedChangesAndAskTheirOwn) {
     (void)opened_copy(person);
     change(person);
     choose_sample(person);
-    person.workshop().receive({fs::absolute(dome_project)});
+    person.app().receive({fs::absolute(dome_project)});
     person.frames();
     person.click("dialogs/unsaved/unsaved_cancel");
     person.frames();
     ASSERT_TRUE(person.sees("dialogs/unsaved/unsaved_discard")) << "now about the dome";
-    EXPECT_EQ(person.workshop().look().leaving_to, "open dome.json");
+    EXPECT_EQ(person.app().look().leaving_to, "open dome.json");
     person.click("dialogs/unsaved/unsaved_discard");
-    EXPECT_EQ(person.workshop().look().document.file, fs::absolute(dome_project));
+    EXPECT_EQ(person.app().look().document.file, fs::absolute(dome_project));
 }
 
 TEST(RecoveryDialog, DiscardRemovesTheCopy) {
@@ -242,7 +241,7 @@ TEST(RecoveryDialog, DiscardRemovesTheCopy) {
     leave_behind(scratch.path(), {});
     Person person({1280, 800}, scratch.path());
     person.click("dialogs/recovery/recovery_discard");
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_TRUE(is_empty_of_copies(scratch.path()));
     EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
 }
@@ -253,8 +252,8 @@ TEST(RecoveryDialog, LaterAsksAgainAtTheNextStart) {
     {
         Person person({1280, 800}, scratch.path());
         person.click("dialogs/recovery/recovery_later");
-        EXPECT_FALSE(person.workshop().look().asks());
-        person.workshop().close();
+        EXPECT_FALSE(person.app().look().asks());
+        person.app().close();
     }
     Person next({1280, 800}, scratch.path());
     EXPECT_TRUE(next.sees("dialogs/recovery/recovery_recover"));
@@ -265,7 +264,7 @@ TEST(RecoveryDialog, ABrokenCopyCannotBeRecoveredAndSaysWhy) {
     write_file(scratch / "1.json", "{ \"format\": ");
     Person person({1280, 800}, scratch.path());
     person.click("dialogs/recovery/recovery_recover");
-    EXPECT_TRUE(person.workshop().look().asks());
+    EXPECT_TRUE(person.app().look().asks());
     const auto* seen = person.desktop().ui().places().find("dialogs/recovery/recovery_recover");
     ASSERT_NE(seen, nullptr);
     EXPECT_EQ(seen->reason, "The copy cannot be read.");
@@ -286,12 +285,12 @@ TEST(RecoveryDialog, UnsavedWorkSurvivesAProgramThatEndsBadly) {
 
 /// 6 x 6 nodes are so few that a ball goes 2 mm below the dome between them.
 void cut_with_a_ball(Person& person) {
-    person.workshop().edit("Choose a tool",
-                           [](project::Project& p) {
-                               p.tool.cutter = toolpath::CutterKind::ball;
-                               p.tool.diameter_mm = 6.0;
-                           },
-                           {});
+    person.app().edit("Choose a tool",
+                      [](project::Project& p) {
+                          p.tool.cutter = toolpath::CutterKind::ball;
+                          p.tool.diameter_mm = 6.0;
+                      },
+                      {});
     person.wait_idle();
 }
 
@@ -299,14 +298,14 @@ void cut_with_a_ball(Person& person) {
 TEST(Gouges, AreAskedAboutBeforeTheProgramIsWritten) {
     Person person;
     cut_with_a_ball(person);
-    ASSERT_FALSE(person.workshop().look().gouge_warning().empty());
+    ASSERT_FALSE(person.app().look().gouge_warning().empty());
     person.press_key(render::Key::e, true);
     person.frames(3);
     ASSERT_TRUE(person.sees("dialogs/gouges/gouges_write"));
     EXPECT_FALSE(person.sees("dialogs/files/name"));
     person.keep("gouges-asked");
     person.press_key(render::Key::escape);
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     person.press_key(render::Key::e, true);
     person.frames(3);
     person.click("dialogs/gouges/gouges_write");
@@ -325,9 +324,9 @@ TEST(Gouges, AreShownInPlaceOfWriting) {
     person.frames(3);
     person.click("dialogs/gouges/gouges_show");
     person.frames(3);
-    EXPECT_FALSE(person.workshop().look().asks());
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::toolpath);
-    EXPECT_EQ(person.workshop().session().lower_tab_now(), actions::LowerTab::gouges);
+    EXPECT_FALSE(person.app().look().asks());
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::toolpath);
+    EXPECT_EQ(person.app().view_state().lower_tab_now(), actions::LowerTab::gouges);
 }
 
 TEST(Gouges, OfAPointAreNone) {

@@ -5,7 +5,7 @@
 #include "core/project/project_file.h"
 #include "core/project/recent_files.h"
 #include "tests/ui/panels/person.h"
-#include "ui/panels/asked_file.h"
+#include "ui/panels/file_prompt.h"
 #include "ui/panels/folder_view.h"
 
 #include <gtest/gtest.h>
@@ -63,10 +63,10 @@ TEST_F(FileDialog, OpensWhatIsClickedTwiceAndShowsItBefore) {
     const render::Picture before = person_.picture_of("dialogs/files/picture");
     person_.click("dialogs/files/entries/bells.json");
     EXPECT_NE(before, person_.picture_of("dialogs/files/picture"));
-    EXPECT_EQ(person_.workshop().look().document.file.filename(), "mine.json");
+    EXPECT_EQ(person_.app().look().document.file.filename(), "mine.json");
     person_.click("dialogs/files/entries/bells.json");
     person_.frames();
-    EXPECT_EQ(person_.workshop().look().document.file.filename(), "bells.json");
+    EXPECT_EQ(person_.app().look().document.file.filename(), "bells.json");
     EXPECT_FALSE(person_.sees("dialogs/files/entries"));
 }
 
@@ -83,8 +83,8 @@ TEST_F(FileDialog, KeepsItsRowsInPlaceWhateverIsClicked) {
     person_.click(row);
     person_.frames(2);
     EXPECT_FALSE(person_.sees("dialogs/files/entries"));
-    ASSERT_TRUE(person_.workshop().look().opened);
-    EXPECT_EQ(person_.workshop().look().opened->file.filename(), "square.ngc");
+    ASSERT_TRUE(person_.app().look().opened);
+    EXPECT_EQ(person_.app().look().opened->file.filename(), "square.ngc");
 }
 
 // The second click of a double click entered the folder that had come under the mouse: one too deep.
@@ -140,7 +140,7 @@ TEST_F(FileDialog, GoesToPlacesAndShowsOneKindOfFile) {
     person_.choose("dialogs/files/filter", "all");
     EXPECT_TRUE(person_.sees(entries + "notes.odt"));
     person_.keep("file-dialog-places");
-    const std::vector<FilePlace> places = places_of(person_.workshop().look());
+    const std::vector<FilePlace> places = places_of(person_.app().look());
     const auto samples = std::ranges::find(places, "Samples: projects", &FilePlace::label);
     ASSERT_NE(samples, places.end());
     person_.choose("dialogs/files/filter", "known");
@@ -176,8 +176,8 @@ TEST(FolderView, SizesAreShort) {
 }
 
 TEST(FolderView, ListsArmsAloneWhereAnArmIsAskedFor) {
-    const auto& asked = about(actions::FileQuestion::open_arm);
-    const FileFilter& known = filters_of(asked.question)[0];
+    const auto& asked = about(actions::FilePrompt::open_arm);
+    const FileFilter& known = filters_of(asked.prompt)[0];
     const FolderListing arms = listed("assets/arms", asked, known);
     EXPECT_FALSE(arms.entries.empty());
     EXPECT_TRUE(std::ranges::all_of(
@@ -194,8 +194,8 @@ TEST(FolderView, EntriesHaveKindSizeAndDate) {
     EXPECT_EQ(file_kind(dome.path), "project");
     EXPECT_TRUE(entry_of("assets").is_folder);
     EXPECT_EQ(entry_of("nowhere/at/all").changed_s, -1);
-    const FolderListing none = listed(
-        "nowhere/at/all", about(actions::FileQuestion::open), filters_of(actions::FileQuestion::open)[0]);
+    const FolderListing none =
+        listed("nowhere/at/all", about(actions::FilePrompt::open), filters_of(actions::FilePrompt::open)[0]);
     EXPECT_NE(none.fault, "");
 }
 
@@ -213,7 +213,7 @@ TEST_F(FileDialog, TakesAPlaceThatIsTyped) {
     person_.fill_in("dialogs/files/path", (person_.folder() / "deep" / "bells.json").string());
     person_.frames(2);
     EXPECT_FALSE(person_.sees("dialogs/files/entries"));
-    EXPECT_EQ(person_.workshop().look().document.file.filename(), "bells.json");
+    EXPECT_EQ(person_.app().look().document.file.filename(), "bells.json");
 }
 
 TEST_F(FileDialog, DoesNotReplaceAFileWithoutSayingSo) {
@@ -224,7 +224,7 @@ TEST_F(FileDialog, DoesNotReplaceAFileWithoutSayingSo) {
     EXPECT_EQ(read_file(person_.folder() / "other.json"), "not mine");
     person_.press_key(render::Key::escape);
     person_.press_key(render::Key::escape);
-    EXPECT_FALSE(person_.workshop().look().asks());
+    EXPECT_FALSE(person_.app().look().asks());
     EXPECT_EQ(read_file(person_.folder() / "other.json"), "not mine");
 }
 
@@ -246,7 +246,7 @@ TEST_F(FileDialog, SaysThatAFileWouldBeReplacedWhileItsNameIsTyped) {
 TEST_F(FileDialog, NamesTheFileThatAnExportReplacesWhileItIsTyped) {
     write("surface.step", "the first");
     write("w.glb", "the third");
-    person_.workshop().run("file.export");
+    person_.app().run("file.export");
     person_.frames();
     EXPECT_EQ(button(), "replace") << "surface.step, as it is asked for";
     type_name("zz.glb");
@@ -285,8 +285,8 @@ TEST_F(FileDialog, AClickOnSaveDoesNotReplaceAFileThatCameToBeMeanwhile) {
 }
 
 TEST_F(FileDialog, NothingElseIsWrittenOverTheOpenProjectWithoutAWord) {
-    person_.workshop().session().workspace = actions::Workspace::arm;
-    person_.workshop().session().question = actions::FileQuestion::save_points;
+    person_.app().view_state().workspace = actions::Workspace::arm;
+    person_.app().view_state().file_prompt = actions::FilePrompt::save_points;
     person_.frames();
     type_name("mine");
     EXPECT_EQ(button(), "replace");
@@ -312,14 +312,14 @@ TEST_F(FileDialog, ImportBeginsWhereTheLastSurfaceCameFrom) {
     EXPECT_TRUE(person_.sees("dialogs/files/entries/mine.json")) << "the project's folder";
 }
 
-TEST(AskedFile, SaysWhichKindsThereAre) {
-    EXPECT_EQ(about(actions::FileQuestion::import_surface).none,
+TEST(FilePrompt, SaysWhichKindsThereAre) {
+    EXPECT_EQ(about(actions::FilePrompt::import_surface).none,
               "No STEP, IGES, STL, OBJ, PLY or point files in this folder.");
-    const std::string kinds = ending_text(about(actions::FileQuestion::export_surface));
+    const std::string kinds = ending_text(about(actions::FilePrompt::export_surface));
     for (const char* ending : {".step", ".glb", ".stl", ".obj", ".ply"}) {
         EXPECT_NE(kinds.find(ending), std::string::npos) << ending;
     }
-    EXPECT_EQ(ending_text(about(actions::FileQuestion::save_as)), "Extension: .json.");
+    EXPECT_EQ(ending_text(about(actions::FilePrompt::save_as)), "Extension: .json.");
 }
 
 TEST_F(FileDialog, AFolderIsNotTakenForAFileToReplace) {

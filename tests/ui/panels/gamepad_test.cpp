@@ -24,15 +24,15 @@ protected:
     Person person{{1280, 800}};
 
     void SetUp() override {
-        person.workshop().run("view.machine");
-        person.workshop().session().hand.choice.driver = "grbl";
-        person.workshop().session().hand.choice.address = grbl.port();
+        person.app().run("view.machine");
+        person.app().view_state().manual.choice.driver = "grbl";
+        person.app().view_state().manual.choice.address = grbl.port();
         person.frames(3);
         person.click("inspector/connection/machine_connect");
-        const auto state = [this] { return person.workshop().look().controller.status.state; };
-        ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
+        const auto state = [this] { return person.app().look().connection.status.state; };
+        ASSERT_TRUE(person.live_until([&] { return person.app().look().connection.connected(); }));
         if (state() == DriverState::alarm) {
-            person.workshop().run("machine.reset");
+            person.app().run("machine.reset");
         }
         ASSERT_TRUE(person.live_until([&] { return state() == DriverState::idle; }));
     }
@@ -54,7 +54,7 @@ protected:
         // A starved program lets it rest between two pieces of a jog: only the driver knows when that is
         // over.
         ASSERT_TRUE(person.live_until([this] {
-            const auto& status = person.workshop().look().controller.status;
+            const auto& status = person.app().look().connection.status;
             return !grbl.moving() && status.state == DriverState::idle;
         }));
         const auto still = grbl.position();
@@ -72,7 +72,7 @@ protected:
 TEST_F(JogByGamepad, NeedsToBeArmedAndABumperToBeHeld) {
     person.hold_gamepad(pushed(1.0F, 0.0F));
     expect_rest(); // not armed
-    person.workshop().run("machine.arm_gamepad");
+    person.app().run("machine.arm_gamepad");
     person.hold_gamepad(pushed(1.0F, 0.0F, false));
     expect_rest(); // no bumper
     person.hold_gamepad(pushed(0.2F, -0.2F));
@@ -87,7 +87,7 @@ TEST_F(JogByGamepad, NeedsToBeArmedAndABumperToBeHeld) {
 }
 
 TEST_F(JogByGamepad, StopsWhenTheStickRestsTheBumperRisesThePadIsGoneOrTheFocusIs) {
-    person.workshop().run("machine.arm_gamepad");
+    person.app().run("machine.arm_gamepad");
     start(pushed(1.0F, 0.0F));
     expect_stop([this] { person.hold_gamepad(pushed(0.0F, 0.0F)); });
     start(pushed(-1.0F, 0.0F));
@@ -102,9 +102,9 @@ TEST_F(JogByGamepad, StopsWhenTheStickRestsTheBumperRisesThePadIsGoneOrTheFocusI
 }
 
 TEST_F(JogByGamepad, GoesSlowerWhereTheStickIsPushedLess) {
-    person.workshop().run("machine.arm_gamepad");
-    person.workshop().session().hand.speed_mm_per_min = 1200.0;
-    const auto speed = [this] { return person.workshop().look().controller.status.feed * 60.0; };
+    person.app().run("machine.arm_gamepad");
+    person.app().view_state().manual.speed_mm_per_min = 1200.0;
+    const auto speed = [this] { return person.app().look().connection.status.feed * 60.0; };
     const auto nearly = [&](double wanted) {
         return [&speed, wanted] { return std::abs(speed() - wanted) < 0.02 * wanted; };
     };
@@ -116,8 +116,8 @@ TEST_F(JogByGamepad, GoesSlowerWhereTheStickIsPushedLess) {
 }
 
 TEST_F(JogByGamepad, GoesOneStepAPush) {
-    person.workshop().run("machine.arm_gamepad");
-    person.workshop().session().hand.step = 1.0;
+    person.app().run("machine.arm_gamepad");
+    person.app().view_state().manual.step = 1.0;
     person.frames(2);
     person.hold_gamepad(pushed(0.0F, 1.0F));
     person.frames(30);

@@ -1,7 +1,7 @@
 // The window of help, by real keys and mouse; U1 of the list of what replaces the program of Saengsasri,
 // Nittayachin 1996: its menus named a help that was not there.
 #include "tests/ui/panels/person.h"
-#include "ui/actions/arm_bench.h"
+#include "ui/actions/arm_workspace.h"
 #include "ui/panels/manual.h"
 
 #include <gmock/gmock.h>
@@ -86,7 +86,7 @@ TEST(HelpU1, F1OpensItInEveryWorkspaceAndEscClosesIt) {
         Person person(screen);
         for (const char* workspace :
              {"view.design", "view.machine", "view.arm", "view.plot", "view.processor"}) {
-            person.workshop().run(workspace);
+            person.app().run(workspace);
             person.frames(4);
             const auto cut_before = person.desktop().ui().cut_texts().size();
             person.press_key(render::Key::f1);
@@ -104,7 +104,7 @@ TEST(HelpU1, F1OpensItInEveryWorkspaceAndEscClosesIt) {
 
 TEST(HelpU1, TheMenuLeadsToKeysCommandsAndWhichProgramThisIs) {
     Person person;
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
     const std::array<std::pair<const char*, HelpPage>, 4> entries{{{"help_workspace", HelpPage::workspace},
                                                                    {"help_keys", HelpPage::keys},
@@ -114,32 +114,32 @@ TEST(HelpU1, TheMenuLeadsToKeysCommandsAndWhichProgramThisIs) {
         person.click("menu/help");
         person.click(std::string("menu/help/") + entry);
         person.frames(3);
-        EXPECT_EQ(person.workshop().session().help, page) << entry;
+        EXPECT_EQ(person.app().view_state().help, page) << entry;
         EXPECT_TRUE(person.sees("dialogs/help/text")) << entry;
         person.keep("help-" + std::string(entry));
         person.click("dialogs/help/close");
-        EXPECT_EQ(person.workshop().session().help, HelpPage::none);
+        EXPECT_EQ(person.app().view_state().help, HelpPage::none);
     }
     person.press_key(render::Key::f1);
     person.click("dialogs/help/pages/commands");
-    EXPECT_EQ(person.workshop().session().help, HelpPage::commands);
+    EXPECT_EQ(person.app().view_state().help, HelpPage::commands);
 }
 
 TEST(HelpU1, NothingMovesBehindIt) {
     Person person;
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
     const widgets::Rect button = person.place("hand/jog/plus_1");
     person.hover({button.x + 0.5F * button.w, button.y + 0.5F * button.h});
     person.hold_button(true);
     person.frames(10);
-    EXPECT_TRUE(person.workshop().arm().moving());
+    EXPECT_TRUE(person.app().arm().moving());
     person.press_key(render::Key::f1);
     person.frames(3);
-    EXPECT_FALSE(person.workshop().arm().moving());
-    const double there = person.workshop().arm().joints()[0];
+    EXPECT_FALSE(person.app().arm().moving());
+    const double there = person.app().arm().joints()[0];
     person.frames(20);
-    EXPECT_DOUBLE_EQ(person.workshop().arm().joints()[0], there);
+    EXPECT_DOUBLE_EQ(person.app().arm().joints()[0], there);
     person.hold_button(false);
 }
 
@@ -147,14 +147,14 @@ TEST(HelpU1, NothingMovesBehindIt) {
 /// jogs by position and by angle.
 TEST(ArmWorkspaceU1, EveryItemOfTheMenusOfTheThesisIsThere) {
     Person person({1600, 1000});
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(4);
-    const auto joint = [&](int n) { return person.workshop().arm().joints()[n]; };
-    const auto tip = [&] { return Vec3(person.workshop().arm().tool().translation()); };
+    const auto joint = [&](int n) { return person.app().arm().joints()[n]; };
+    const auto tip = [&] { return Vec3(person.app().arm().tool().translation()); };
 
     person.fill_in("inspector/goal/tip/z", "500"); // Setup > Position
     person.click("timeline/arm_go_joints");
-    for (int n = 0; n < 60 * 30 && person.workshop().arm().moving(); ++n) {
+    for (int n = 0; n < 60 * 30 && person.app().arm().moving(); ++n) {
         person.frames(1);
     }
     EXPECT_NEAR(tip().z(), 500.0, 1e-6);
@@ -182,9 +182,9 @@ TEST(ArmWorkspaceU1, EveryItemOfTheMenusOfTheThesisIsThere) {
     person.type("LINEAR ABS FRAX(X) F5\nX40");
     person.frames(3);
     person.click("lower/arm_simulate");
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().arm().moving(); }));
+    ASSERT_TRUE(person.live_until([&] { return person.app().arm().moving(); }));
     person.click("timeline/arm_stop");
-    EXPECT_FALSE(person.workshop().arm().moving());
+    EXPECT_FALSE(person.app().arm().moving());
 
     for (const char* frame : {"hand/jog/frame/joints", "hand/jog/frame/base"}) { // Jog > Angle, Position
         person.click(frame);
@@ -199,8 +199,7 @@ TEST(ArmWorkspaceU1, EveryItemOfTheMenusOfTheThesisIsThere) {
         EXPECT_GT((tip() - before).norm(), 1.0) << frame;
     }
     // Reset is for a connected card; without one it says so.
-    EXPECT_FALSE(
-        person.workshop().catalogue().find("machine.reset").permission(person.workshop().look()).allowed);
+    EXPECT_FALSE(person.app().catalogue().find("machine.reset").permission(person.app().look()).allowed);
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 #include "core/project/project_file.h"
 #include "core/project/surface.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/import_bench.h"
+#include "ui/actions/pending_import.h"
 #include "ui/panels/desktop.h"
 
 #include <gmock/gmock.h>
@@ -47,12 +47,12 @@ protected:
     }
     /// As the window does what is dropped on it.
     void drop(const fs::path& file) {
-        person_.workshop().receive({file});
+        person_.app().receive({file});
         person_.wait_idle();
     }
-    [[nodiscard]] const actions::ImportBench& bench() { return person_.workshop().import(); }
+    [[nodiscard]] const actions::PendingImport& bench() { return person_.app().import(); }
     [[nodiscard]] bool was_told(const std::string& words) {
-        return std::ranges::any_of(person_.workshop().session().log,
+        return std::ranges::any_of(person_.app().view_state().log,
                                    [&](const std::string& line) { return line.find(words) != line.npos; });
     }
 
@@ -66,7 +66,7 @@ TEST_F(Import, MeasuredPointsAreASurfaceThroughThemOrNearThem) {
         text += std::to_string(10 * x) + "," + std::to_string(10 * y) + "," + std::to_string(x * y) + "\n";
     }
     const fs::path file = written("probe.csv", text);
-    person_.workshop().open_surface(file);
+    person_.app().open_surface(file);
     person_.wait_idle();
     ASSERT_TRUE(bench().is_ready());
     EXPECT_EQ(bench().latest()->surface->surface.patches.size(), 25U);
@@ -224,7 +224,7 @@ TEST_F(Import, WhatIsWrongIsToldAndChangesNothing) {
     const project::Project before = person_.project();
     const auto refused = [&](const fs::path& file, const std::string& words) {
         drop(file);
-        EXPECT_TRUE(was_told(words)) << file << "\n" << person_.workshop().session().log.back();
+        EXPECT_TRUE(was_told(words)) << file << "\n" << person_.app().view_state().log.back();
         EXPECT_FALSE(bench().is_open());
         EXPECT_EQ(person_.project(), before);
     };
@@ -237,7 +237,7 @@ TEST_F(Import, WhatIsWrongIsToldAndChangesNothing) {
     }
     refused(person_.folder() / "nowhere.stl", "there is no such file");
     person_.keep("import-refused");
-    EXPECT_EQ(person_.workshop().look().undo_title, "") << "there is nothing to undo";
+    EXPECT_EQ(person_.app().look().undo_title, "") << "there is nothing to undo";
 }
 
 TEST_F(Import, ASideThatTheMeshDoesNotHaveStaysOnTheBench) {
@@ -266,7 +266,7 @@ TEST_F(Import, UndoShowsTheSurfaceThatComesBack) {
     EXPECT_NEAR(corner().x, before.x, near);
     EXPECT_NEAR(corner().y, before.y, near);
     const auto taken_back = corner();
-    person_.workshop().edit(
+    person_.app().edit(
         "Move a point", [](project::Project& p) { p.surface.patches.front().point(0, 0).z() += 5.0; }, {});
     person_.wait_idle();
     person_.press_key(render::Key::z, true);
@@ -297,7 +297,7 @@ TEST_F(Import, CancelEndsTheReadingAndLeavesTheProject) {
                     std::to_string(a + side + 1) + " " + std::to_string(a + 1) + "\n";
         }
     }
-    person_.workshop().receive({written("large.obj", mesh)});
+    person_.app().receive({written("large.obj", mesh)});
     ASSERT_TRUE(person_.live_until([&] { return person_.sees("inspector/import/work"); }));
     person_.keep("import-reading");
     person_.click("inspector/import/work/cancel");
@@ -314,7 +314,7 @@ TEST_F(Import, TheSurfaceIsExported) {
     person_.wait_idle();
     EXPECT_TRUE(was_told("Surface written."));
     EXPECT_THAT(read_file(person_.folder() / "out.ply"), ::testing::StartsWith("ply"));
-    person_.workshop().run("file.export");
+    person_.app().run("file.export");
     person_.frames();
     person_.fill_in("dialogs/files/name", (person_.folder() / "out.dwg").string());
     EXPECT_TRUE(was_told("name ending in .step"));
@@ -329,13 +329,13 @@ TEST_F(Import, TheSurfaceIsExported) {
 }
 
 TEST_F(Import, AnExportTellsThatOutlinesStayBehind) {
-    person_.workshop().edit("Trim",
-                            [](project::Project& draft) {
-                                draft.surface.trims = {{{{{0.2, 0.2}, {0.8, 0.2}, {0.5, 0.8}}}}};
-                            },
-                            {});
+    person_.app().edit("Trim",
+                       [](project::Project& draft) {
+                           draft.surface.trims = {{{{{0.2, 0.2}, {0.8, 0.2}, {0.5, 0.8}}}}};
+                       },
+                       {});
     person_.wait_idle();
-    person_.workshop().export_surface(person_.folder() / "out.ply");
+    person_.app().export_surface(person_.folder() / "out.ply");
     person_.wait_idle();
     EXPECT_TRUE(was_told("Surface written. One patch is trimmed: the file contains the whole patch"));
     person_.keep("export-trimmed");
@@ -352,16 +352,16 @@ TEST_F(Import, AnExportCanBeCancelledAndLeavesTheFile) {
         many.surface.patches.push_back(net);
     }
     project::write_project(many, person_.folder() / "many.json");
-    person_.workshop().open(person_.folder() / "many.json");
+    person_.app().open(person_.folder() / "many.json");
     person_.wait_idle();
     const fs::path file = written("out.stl", std::string("as it was"));
-    person_.workshop().export_surface(file);
+    person_.app().export_surface(file);
     ASSERT_TRUE(person_.live_until([&] {
-        const plan::Activity now = person_.workshop().look().activity;
+        const plan::Activity now = person_.app().look().activity;
         return now.busy && now.text.starts_with("Writing the surface: ") && now.fraction > 0.0;
     }));
     person_.keep("export-running");
-    person_.workshop().run("work.cancel");
+    person_.app().run("work.cancel");
     person_.wait_idle();
     EXPECT_TRUE(was_told("Cancelled: Writing the surface"));
     EXPECT_FALSE(was_told("Surface written."));

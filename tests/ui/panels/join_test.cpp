@@ -39,7 +39,7 @@ TEST(JoinPatches, FromTheMenuAndBackByUndo) {
     person.click("menu/edit");
     EXPECT_NE(person.refusal("menu/edit/edit_join_tangent"), "") << "one patch has no neighbour";
     person.press_key(render::Key::escape);
-    person.workshop().edit("Two domes", put_two_domes, {});
+    person.app().edit("Two domes", put_two_domes, {});
     person.wait_idle();
     person.press_key(render::Key::f);
     person.keep("join-before");
@@ -55,7 +55,7 @@ TEST(JoinPatches, FromTheMenuAndBackByUndo) {
     const auto first = project::surface_of(before).patches();
     const auto gap = geometry::figures_of(first, geometry::seams_of(first, 10.0).front()).gap;
     EXPECT_THAT(
-        person.workshop().session().log.back(),
+        person.app().view_state().log.back(),
         AllOf(HasSubstr("gap " + fixed(gap, 4) + " \u2192 0.0000 mm"), HasSubstr("\u2192 0.000\u00B0")));
     person.press_key(render::Key::z, true);
     person.wait_idle();
@@ -65,23 +65,23 @@ TEST(JoinPatches, FromTheMenuAndBackByUndo) {
 TEST(JoinPatches, TellsOfTheSeamThatStaysOpen) {
     Person person({1280, 800});
     person.open("assets/projects/dome.json");
-    person.workshop().edit("Three domes",
-                           [](project::Project& draft) {
-                               put_two_domes(draft);
-                               geometry::ControlNet third = draft.surface.patches.back();
-                               const double width = third.points.back().x() - third.points.front().x();
-                               for (Vec3& point : third.points) {
-                                   point.x() += 1.1 * std::abs(width);
-                               }
-                               draft.surface.patches.push_back(third);
-                           },
-                           {});
+    person.app().edit("Three domes",
+                      [](project::Project& draft) {
+                          put_two_domes(draft);
+                          geometry::ControlNet third = draft.surface.patches.back();
+                          const double width = third.points.back().x() - third.points.front().x();
+                          for (Vec3& point : third.points) {
+                              point.x() += 1.1 * std::abs(width);
+                          }
+                          draft.surface.patches.push_back(third);
+                      },
+                      {});
     person.wait_idle();
     person.click("menu/edit");
     person.click("menu/edit/edit_join_tangent");
     person.wait_idle();
     person.keep("join-open");
-    EXPECT_THAT(person.workshop().session().log.back(),
+    EXPECT_THAT(person.app().view_state().log.back(),
                 AllOf(HasSubstr("1 seam joined"), HasSubstr("Left open"), HasSubstr("with a gap of ")));
 }
 

@@ -18,13 +18,13 @@ using viewport::Layers;
 using viewport::LayerSwitch;
 
 const Layers& shown_layers(Person& person) {
-    return person.workshop().session().layers_now();
+    return person.app().view_state().layers_now();
 }
 
 TEST(LayerList, HasARowForEveryLayerThatSwitchesItInThisWorkspaceOnly) {
     Person person;
     person.open(dome_project);
-    const Layers of_grid = person.workshop().session().layers[1];
+    const Layers of_grid = person.app().view_state().layers[1];
     person.click("view/layers");
     for (const LayerSwitch& which : layer_switches) {
         if (which.of == LayerSwitch::Of::arm) {
@@ -35,7 +35,7 @@ TEST(LayerList, HasARowForEveryLayerThatSwitchesItInThisWorkspaceOnly) {
         EXPECT_EQ(shown_layers(person), switched(before, which)) << which.id;
         EXPECT_NE(shown_layers(person), before) << which.id;
     }
-    EXPECT_EQ(person.workshop().session().layers[1], of_grid);
+    EXPECT_EQ(person.app().view_state().layers[1], of_grid);
 }
 
 TEST(LayerList, StaysOpenForTheNextLayerAndClosesByAClickElsewhere) {
@@ -53,11 +53,11 @@ TEST(LayerList, AHiddenLayerIsGoneFromThePictureAndComesBack) {
     person.open(dome_project);
     const render::Picture with = person.picture_of("view/iso");
     EXPECT_TRUE(person.sees("view/control_point(1,1)"));
-    person.workshop().run("view.layer_control_net");
+    person.app().run("view.layer_control_net");
     person.frames();
     EXPECT_NE(person.picture_of("view/iso"), with);
     EXPECT_FALSE(person.sees("view/control_point(1,1)"));
-    person.workshop().run("view.layer_control_net");
+    person.app().run("view.layer_control_net");
     person.frames();
     EXPECT_EQ(person.picture_of("view/iso"), with);
 }
@@ -86,10 +86,9 @@ TEST(LayerList, TheWeightIsShownFromTheGridPanelAndFollowsTheFormula) {
     EXPECT_TRUE(person.sees("view/weight_legend"));
     const render::Picture of_error = person.picture_of("view/iso");
     person.keep("weight-of-the-error");
-    person.workshop().edit(
-        "Choose the weight",
-        [](project::Project& p) { p.grid.elliptic.weight = project::WeightSource::expression; },
-        {});
+    person.app().edit("Choose the weight",
+                      [](project::Project& p) { p.grid.elliptic.weight = project::WeightSource::expression; },
+                      {});
     person.wait_idle();
     EXPECT_NE(person.picture_of("view/iso"), of_error);
     person.keep("weight-of-a-formula");

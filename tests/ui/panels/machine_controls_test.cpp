@@ -28,7 +28,7 @@ protected:
 
     void SetUp() override { test::connect(person, grbl); }
 
-    [[nodiscard]] drivers::DriverStatus status() { return person.workshop().look().controller.status; }
+    [[nodiscard]] drivers::DriverStatus status() { return person.app().look().connection.status; }
     [[nodiscard]] bool is(DriverState state) { return test::machine_is(person, state); }
     [[nodiscard]] bool rests() {
         const bool idle = person.live_until([this] { return is(DriverState::idle); });
@@ -74,9 +74,9 @@ TEST_F(MachineWithSwitches, IsHomed) {
 
 TEST_F(MachineWithSwitches, AreNotMovedByAWordInThePaletteElsewhere) {
     ASSERT_TRUE(rests());
-    person.workshop().run("view.design");
+    person.app().run("view.design");
     person.frames(2);
-    person.workshop().run("machine.home");
+    person.app().run("machine.home");
     person.press_key(render::Key::k, true);
     person.frames(2);
     person.type("home");
@@ -141,7 +141,7 @@ TEST_F(MachineControls, ChooseAWorkSystemAndMakeItsZeroHere) {
     press("hand/position/zero_X");
     ASSERT_TRUE(person.live_until([this] { return std::abs(status().work_position()[0]) < 1e-6; }));
     const auto g55 = [this] {
-        const auto offsets = person.workshop().look().controller.offsets;
+        const auto offsets = person.app().look().connection.offsets;
         return std::ranges::find(offsets, "G55", &drivers::StoredOffset::name)->value[0];
     };
     EXPECT_TRUE(person.live_until([&] { return std::abs(g55() - 6.0) < 1e-6; }));
@@ -155,7 +155,7 @@ TEST_F(MachineControls, ChangeASettingOfTheController) {
     ASSERT_TRUE(rests());
     person.fill_in("lower/value", "200");
     const auto value = [this] {
-        const auto settings = person.workshop().look().controller.settings;
+        const auto settings = person.app().look().connection.settings;
         return std::ranges::find(settings, "$1", &drivers::ControllerSetting::name)->value;
     };
     EXPECT_TRUE(person.live_until([&] { return std::abs(value() - 200.0) < 1e-9; }));
@@ -177,11 +177,11 @@ TEST_F(MachineControls, StopAMoveThatWasTypedWithoutAnAlarm) {
 TEST_F(MachineControls, SeeTheEmergencyStopInEachWorkspaceAndBehindEachQuestion) {
     for (const char* workspace :
          {"view.design", "view.grid", "view.toolpath", "view.program", "view.machine", "view.processor"}) {
-        person.workshop().run(workspace);
+        person.app().run(workspace);
         person.frames(3);
         EXPECT_EQ(person.refusal("emergency/machine_emergency_stop"), "") << workspace;
     }
-    person.workshop().run("file.open");
+    person.app().run("file.open");
     person.frames(3);
     person.click("emergency/machine_emergency_stop");
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::alarm); }));
@@ -197,7 +197,7 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     }
     write_file(person.folder() / "part.ngc", text + "G0 Z5\nM2\n");
     person.open(person.folder() / "part.ngc");
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([this] { return grbl.position()[0] > 2.0; }, 60.0));
@@ -210,8 +210,8 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     const double held = grbl.position()[0];
     ASSERT_TRUE(person.live_until([&] { return grbl.position()[0] > held + 2.0; }, 60.0));
     grbl.raise_alarm();
-    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().job.outcome.has_value(); }));
-    const auto broken = *person.workshop().look().job.outcome;
+    ASSERT_TRUE(person.live_until([this] { return person.app().look().job.outcome.has_value(); }));
+    const auto broken = *person.app().look().job.outcome;
     EXPECT_EQ(broken.end, JobEnd::fault) << broken.sentence;
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::alarm); }));
     person.frames(20);
@@ -231,7 +231,7 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     person.click("inspector/job/begin/trust");
     ASSERT_TRUE(person.live_until([this] { return person.refusal("inspector/job/machine_run").empty(); }));
     test::press_run(person);
-    const auto outcome = [this] { return person.workshop().look().job.outcome; };
+    const auto outcome = [this] { return person.app().look().job.outcome; };
     ASSERT_TRUE(person.live_until([&] { return outcome() && outcome()->end != JobEnd::fault; }, 90.0));
     EXPECT_EQ(outcome()->end, JobEnd::done) << outcome()->sentence;
     EXPECT_NEAR(grbl.position()[0], 30.0, 0.01);

@@ -60,7 +60,7 @@ protected:
         (void)live_until([] { return false; }, seconds);
     }
 
-    [[nodiscard]] actions::ControllerView machine() { return person.workshop().look().controller; }
+    [[nodiscard]] actions::ConnectionView machine() { return person.app().look().connection; }
     [[nodiscard]] bool is(DriverState state) {
         return machine().connected() && machine().status.state == state;
     }
@@ -71,15 +71,15 @@ protected:
     }
 
     void connect() {
-        person.workshop().run("view.machine");
-        person.workshop().session().hand.choice = {"grbl", grbl.port()};
-        person.workshop().session().hand.speed_mm_per_min = jog_speed_mm_per_min;
+        person.app().run("view.machine");
+        person.app().view_state().manual.choice = {"grbl", grbl.port()};
+        person.app().view_state().manual.speed_mm_per_min = jog_speed_mm_per_min;
         person.frames(3);
         person.click("inspector/connection/machine_connect");
         ASSERT_TRUE(live_until([this] { return machine().connected(); }))
             << (machine().failure ? machine().failure->message : "");
         if (is(DriverState::alarm)) { // with homing on, Grbl begins locked
-            person.workshop().run("machine.reset");
+            person.app().run("machine.reset");
         }
         ASSERT_TRUE(live_until([this] { return is(DriverState::idle); }));
     }
@@ -141,8 +141,8 @@ TEST_F(MachineByHand, ShowsTheConnectedMachineWithItsPositionsOffsetsAndSettings
 }
 
 TEST_F(MachineByHand, SaysWhyNoLinkWasMade) {
-    person.workshop().run("view.machine");
-    person.workshop().session().hand.choice = {"grbl", "/dev/no-such-port"};
+    person.app().run("view.machine");
+    person.app().view_state().manual.choice = {"grbl", "/dev/no-such-port"};
     person.frames(3);
     person.click("inspector/connection/machine_connect");
     ASSERT_TRUE(live_until([this] { return machine().failure.has_value(); }));
@@ -189,7 +189,7 @@ TEST_F(MachineByHand, StopsWithoutTheFocusAndWaitsForAnotherPress) {
 
 TEST_F(MachineByHand, AKeyThatIsStillHeldBeginsNothingAnew) {
     connect();
-    person.workshop().run("machine.arm_keys");
+    person.app().run("machine.arm_keys");
     const auto jog = [this] {
         person.hold_keys({render::Key::right});
         ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
@@ -214,9 +214,9 @@ TEST_F(MachineByHand, AKeyThatIsStillHeldBeginsNothingAnew) {
     nothing_begins("another window");
 
     jog();
-    person.workshop().run("view.program");
+    person.app().run("view.program");
     live(0.2);
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     nothing_begins("another workspace");
 
     jog();
@@ -226,21 +226,21 @@ TEST_F(MachineByHand, AKeyThatIsStillHeldBeginsNothingAnew) {
 TEST_F(MachineByHand, StopsInAnotherWorkspace) {
     connect();
     start_jog();
-    expect_prompt(time_to_stop([this] { person.workshop().run("view.program"); }));
+    expect_prompt(time_to_stop([this] { person.app().run("view.program"); }));
     person.hold_button(false);
 }
 
 TEST_F(MachineByHand, StopsWhenSomethingIsAsked) {
     connect();
     start_jog();
-    expect_prompt(time_to_stop([this] { person.workshop().run("file.open"); }));
+    expect_prompt(time_to_stop([this] { person.app().run("file.open"); }));
     person.hold_button(false);
 }
 
 TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
     connect();
     start_jog();
-    const auto console = person.workshop().look().console;
+    const auto console = person.app().look().console;
     std::vector<drivers::ConsoleLine> lines;
     const std::int64_t next = console->end();
     constexpr int most_looks = 60'000;
@@ -258,7 +258,7 @@ TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
 TEST_F(MachineByHand, StopsWhenTheWindowCloses) {
     connect();
     start_jog();
-    expect_prompt(time_to_stop([this] { person.workshop().run("file.quit"); }));
+    expect_prompt(time_to_stop([this] { person.app().run("file.quit"); }));
 }
 
 TEST_F(MachineByHand, TellsOfALostLinkAndOffersToMakeItAgain) {
@@ -282,7 +282,7 @@ TEST_F(MachineByHand, JogsByArmedKeysOnly) {
     EXPECT_FALSE(grbl.moving());
     person.hold_keys({});
     live(0.1);
-    person.workshop().run("machine.arm_keys");
+    person.app().run("machine.arm_keys");
     person.hold_keys({render::Key::up});
     ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
     live(0.3);
@@ -294,11 +294,11 @@ TEST_F(MachineByHand, JogsByArmedKeysOnly) {
 /// An arrow would go from button to button, too, and the space bar press the one it came to.
 TEST_F(MachineByHand, ArmedKeysWalkThroughNoButtons) {
     connect();
-    person.workshop().session().hand.step = 1.0;
+    person.app().view_state().manual.step = 1.0;
     person.frames(2);
     person.click("hand/jog/plus_X");
     ASSERT_TRUE(live_until([this] { return is(DriverState::idle) && grbl.position()[0] > 0.99; }));
-    person.workshop().run("machine.arm_keys");
+    person.app().run("machine.arm_keys");
     person.frames(2);
     person.press_key(render::Key::up);
     ASSERT_TRUE(live_until([this] { return is(DriverState::idle) && grbl.position()[1] > 0.99; }));
@@ -324,7 +324,7 @@ TEST_F(MachineByHand, TheSpindlesSpeedIsShownAsItIsTold) {
 
 TEST_F(MachineByHand, StepsGoAsFarAsTheySay) {
     connect();
-    person.workshop().session().hand.step = 1.0;
+    person.app().view_state().manual.step = 1.0;
     person.frames(2);
     person.click("hand/jog/plus_X");
     person.click("hand/jog/minus_Y");
@@ -336,7 +336,7 @@ TEST_F(MachineByHand, StepsGoAsFarAsTheySay) {
 
 TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
     connect();
-    person.workshop().run("machine.arm_keys");
+    person.app().run("machine.arm_keys");
     std::mt19937 random(20261121);
     const auto one_of = [&](int count) { return std::uniform_int_distribution<int>(0, count - 1)(random); };
     constexpr std::array keys{render::Key::left, render::Key::right, render::Key::up, render::Key::page_down};
@@ -351,7 +351,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
             person.hold_keys({});
             break;
         case 2:
-            person.workshop().run("view.machine");
+            person.app().run("view.machine");
             person.frames(1);
             press_on(buttons[static_cast<std::size_t>(one_of(3))]);
             break;
@@ -362,7 +362,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
             person.set_focused(one_of(2) == 0);
             break;
         case 5:
-            person.workshop().run(one_of(2) == 0 ? "view.grid" : "view.machine");
+            person.app().run(one_of(2) == 0 ? "view.grid" : "view.machine");
             break;
         default:
             person.hover({static_cast<float>(one_of(1280)), static_cast<float>(one_of(720))});
@@ -376,7 +376,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
                 person.set_focused(false);
                 break;
             case 1:
-                person.workshop().run("view.design");
+                person.app().run("view.design");
                 break;
             default:
                 person.hold_keys({});
@@ -390,7 +390,7 @@ TEST_F(MachineByHand, NeverGoesOnMovingAfterAnySequenceOfKeysMouseAndFocus) {
             person.set_focused(true);
             person.hold_keys({});
             person.hold_button(false);
-            person.workshop().run("view.machine");
+            person.app().run("view.machine");
             live(0.6); // so long it takes no keys after another window had them
         }
     }
@@ -418,13 +418,13 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
     person.press_key(render::Key::up);
     person.press_key(render::Key::up);
     person.press_key(render::Key::enter);
-    EXPECT_EQ(person.workshop().session().hand.commands.back(), "G1 X2 F600");
+    EXPECT_EQ(person.app().view_state().manual.commands.back(), "G1 X2 F600");
 }
 
 /// A line takes its time, and who goes on typing means the field: keys that jog must not get there.
 TEST_F(MachineByHand, KeepsTheKeyboardInTheCommandLineWhileALineIsExecuted) {
     connect();
-    person.workshop().run("machine.arm_keys");
+    person.app().run("machine.arm_keys");
     person.click("lower/command");
     person.type("G4 P1.5");
     person.press_key(render::Key::enter);
@@ -480,17 +480,17 @@ TEST_F(MachineByHand, RunsAFileHoldsResumesAndEnds) {
     const auto file = person.folder() / "square.ngc";
     write_file(file, "G21 G90\nG1 X10 F900\nG1 Y10\nG1 X0\nG1 Y0\nM2\n");
     person.open(file);
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(live_until([this] { return grbl.position()[0] > 4.0; }));
     person.keep("machine-job");
-    person.workshop().run("machine.hold");
+    person.app().run("machine.hold");
     ASSERT_TRUE(live_until([this] { return is(DriverState::holding) && !grbl.moving(); }));
-    EXPECT_TRUE(person.workshop().look().job.running);
-    person.workshop().run("machine.resume");
-    ASSERT_TRUE(live_until([this] { return !person.workshop().look().job.running; }, 40.0));
-    const auto job = person.workshop().look().job;
+    EXPECT_TRUE(person.app().look().job.running);
+    person.app().run("machine.resume");
+    ASSERT_TRUE(live_until([this] { return !person.app().look().job.running; }, 40.0));
+    const auto job = person.app().look().job;
     ASSERT_TRUE(job.outcome) << (job.failure ? job.failure->message : "");
     EXPECT_EQ(job.outcome->end, jobs::JobEnd::done);
     EXPECT_EQ(job.outcome->executed_blocks, 6);
@@ -510,7 +510,7 @@ TEST_F(MachineByHand, LeavesTheMachineAtRestWhenItIsDisconnected) {
     connect();
     person.fill_in("lower/command", "G1 X80 F600");
     ASSERT_TRUE(live_until([this] { return grbl.moving(); }));
-    person.workshop().run("machine.disconnect");
+    person.app().run("machine.disconnect");
     ASSERT_TRUE(live_until([this] { return machine().link == LinkState::none; }));
     EXPECT_FALSE(grbl.moving());
 }

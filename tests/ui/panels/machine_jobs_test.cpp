@@ -79,26 +79,26 @@ TEST_F(MachineJobs, AreNotEndedByClosingTheWindowUnlessAPersonSaysSo) {
     connect(person, grbl);
     write_file(person.folder() / "long.ngc", "G21 G90 G94\nG1 X70 F60\nX0\nM2\n");
     person.open(person.folder() / "long.ngc");
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
-    const auto& session = person.workshop().session();
+    const auto& view_state = person.app().view_state();
 
     person.press_key(render::Key::q, true);
     ASSERT_TRUE(person.sees("dialogs/running_job/running_job_stop"));
-    EXPECT_FALSE(session.quit);
+    EXPECT_FALSE(view_state.quit);
     person.keep("machine-quit-while-running");
     person.press_key(render::Key::escape);
     EXPECT_FALSE(person.sees("dialogs/running_job/running_job_stop"));
-    EXPECT_TRUE(person.workshop().look().job.running);
+    EXPECT_TRUE(person.app().look().job.running);
     EXPECT_TRUE(grbl.moving());
 
     person.press_key(render::Key::q, true);
     person.click("dialogs/running_job/running_job_stop");
-    EXPECT_TRUE(session.quit);
-    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
-    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::stopped);
+    EXPECT_TRUE(view_state.quit);
+    ASSERT_TRUE(person.live_until([&] { return !person.app().look().job.running; }));
+    EXPECT_EQ(person.app().look().job.outcome->end, jobs::JobEnd::stopped);
     EXPECT_FALSE(grbl.moving());
 }
 
@@ -108,17 +108,17 @@ TEST_F(MachineJobs, LeaveNothingBehindOfALineThatWasRefusedBefore) {
     connect(person, grbl);
     write_file(person.folder() / "short.ngc", "G21 G90 G94\nG1 X5 F3000\nM2\n");
     person.open(person.folder() / "short.ngc");
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.fill_in("lower/command", "G1 X5 F0");
     ASSERT_TRUE(person.live_until([&] { return person.sees("lower/refused"); }));
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, drivers::DriverState::idle); }));
     EXPECT_TRUE(person.sees("lower/refused")) << "until something else is done";
     test::press_run(person);
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.running; }));
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().job.running; }));
     EXPECT_TRUE(person.live_until([&] { return !person.sees("lower/refused"); }));
     EXPECT_TRUE(person.sees("lower/command"));
-    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+    ASSERT_TRUE(person.live_until([&] { return !person.app().look().job.running; }));
 }
 
 TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
@@ -127,14 +127,14 @@ TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
     GrblBench grbl;
     connect(person, grbl);
     person.open(person.folder() / "short.ngc");
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     test::press_run(person);
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }));
-    person.workshop().session().quit_wanted = true; // pressed in the frame before the end was seen
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().job.outcome.has_value(); }));
+    person.app().view_state().quit_wanted = true; // pressed in the frame before the end was seen
     person.frames(2);
-    EXPECT_FALSE(person.workshop().look().asks());
-    EXPECT_FALSE(person.workshop().session().quit);
+    EXPECT_FALSE(person.app().look().asks());
+    EXPECT_FALSE(person.app().view_state().quit);
 }
 
 TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
@@ -142,12 +142,12 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     Person person;
     connect(person, grbl);
     person.open(program(person.folder()));
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("inspector/job/begin/on");
     person.fill_in("inspector/job/begin/line", std::to_string(middle_line));
     person.wait_idle();
-    const auto approach = person.workshop().look().approach;
+    const auto approach = person.app().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
     EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("G0 Z5")));
     EXPECT_THAT(approach->lines, testing::Contains(HasSubstr("X4 Y3")));
@@ -163,22 +163,22 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
     int first_line = middle_line;
     ASSERT_TRUE(person.live_until(
         [&] {
-            const auto shown = person.workshop().look();
+            const auto shown = person.app().look();
             if (shown.job.running && shown.job.report) {
                 first_line = std::min(first_line, shown.file_place().value().line);
             }
             farthest = std::max(farthest, grbl.position()[0]);
-            return person.workshop().look().job.outcome.has_value();
+            return person.app().look().job.outcome.has_value();
         },
         60.0));
-    const auto job = person.workshop().look().job;
+    const auto job = person.app().look().job;
     EXPECT_EQ(job.outcome->end, jobs::JobEnd::done) << job.outcome->sentence;
     EXPECT_LT(farthest, 10.0); // never where the lines before went
     EXPECT_EQ(first_line, middle_line);
-    EXPECT_GE(person.workshop().look().file_place().value().line, 14);
+    EXPECT_GE(person.app().look().file_place().value().line, 14);
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
     EXPECT_EQ(jobs::read_job_log(job.outcome->log_file).start.from_line, middle_line);
-    EXPECT_FALSE(person.workshop().session().begin.on); // the next job begins at its beginning
+    EXPECT_FALSE(person.app().view_state().start_at.on); // the next job begins at its beginning
 }
 
 TEST_F(MachineJobs, SayWhyALineIsNoPlaceToBegin) {
@@ -186,29 +186,29 @@ TEST_F(MachineJobs, SayWhyALineIsNoPlaceToBegin) {
     Person person;
     connect(person, grbl);
     person.open(program(person.folder()));
-    person.workshop().run("view.machine");
-    person.workshop().session().begin = {true, middle_line, -9.0, {}};
+    person.app().run("view.machine");
+    person.app().view_state().start_at = {true, middle_line, -9.0, {}};
     person.wait_idle();
-    ASSERT_TRUE(person.workshop().look().approach->refusal);
+    ASSERT_TRUE(person.app().look().approach->refusal);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("the clearance Z-9.000 is below"));
     person.keep("machine-from-line-refused");
-    person.workshop().run("machine.run");
+    person.app().run("machine.run");
     person.frames(5);
-    EXPECT_FALSE(person.workshop().look().job.running);
+    EXPECT_FALSE(person.app().look().job.running);
 }
 
 TEST_F(MachineJobs, OfTheVirtualMachineBeginAtALineToo) {
     Person person;
     person.open(program(person.folder()));
-    person.workshop().run("view.machine");
-    person.workshop().session().machine_speed = 0.0;
-    person.workshop().session().begin = {true, middle_line, std::nullopt, {}};
+    person.app().run("view.machine");
+    person.app().view_state().machine_speed = 0.0;
+    person.app().view_state().start_at = {true, middle_line, std::nullopt, {}};
     person.wait_idle();
-    const auto approach = person.workshop().look().approach;
+    const auto approach = person.app().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
-    person.workshop().run("machine.run");
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }, 60.0));
-    const auto outcome = *person.workshop().look().job.outcome;
+    person.app().run("machine.run");
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().job.outcome.has_value(); }, 60.0));
+    const auto outcome = *person.app().look().job.outcome;
     EXPECT_EQ(outcome.end, jobs::JobEnd::done) << outcome.sentence;
     EXPECT_NEAR(outcome.position[0], 2.0, 1e-6);
     EXPECT_LT(outcome.executed_blocks, 16);
@@ -219,18 +219,18 @@ TEST_F(MachineJobs, LogTheOverridesOfAPerson) {
     Person person;
     connect(person, grbl);
     person.open(program(person.folder()));
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return grbl.position()[0] > 1.0; }));
     actions::ActionQueue ask;
     ask.set_overrides({.feed = 200, .rapid = 50, .spindle = 100});
-    person.workshop().perform(ask);
+    person.app().perform(ask);
     ASSERT_TRUE(
-        person.live_until([&] { return person.workshop().look().controller.status.overrides.feed == 200; }));
-    person.workshop().run("machine.stop");
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().job.outcome.has_value(); }));
-    const auto log = jobs::read_job_log(person.workshop().look().job.outcome->log_file);
+        person.live_until([&] { return person.app().look().connection.status.overrides.feed == 200; }));
+    person.app().run("machine.stop");
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().job.outcome.has_value(); }));
+    const auto log = jobs::read_job_log(person.app().look().job.outcome->log_file);
     const auto entry = std::ranges::find(log.records, jobs::LogEvent::overrides, &jobs::LogRecord::event);
     ASSERT_NE(entry, log.records.end());
     EXPECT_THAT(entry->text, HasSubstr("feed 200 %, rapid 50 %"));
@@ -242,7 +242,7 @@ TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfWithNoNoticeOverIt) {
     const auto log = broken_log(folder / "logs", file, 11);
     Person person({1280, 800}, {}, folder / "logs");
     person.wait_idle();
-    person.workshop().receive({file});
+    person.app().receive({file});
     person.frames(3);
     ASSERT_TRUE(person.sees("dialogs/broken_job/broken_job_dismiss"));
     ASSERT_TRUE(person.sees("notices/1"));
@@ -263,30 +263,30 @@ TEST_F(MachineJobs, ThatWereBrokenOffAreToldOfAtTheStartAndGoOnFromTheirLine) {
     Person person({1280, 800}, {}, folder / "logs");
     person.wait_idle();
     ASSERT_TRUE(person.sees("dialogs/broken_job/broken_job_continue"));
-    EXPECT_THAT(person.workshop().look().broken_jobs->front().sentence, HasSubstr("11 of 15 blocks"));
+    EXPECT_THAT(person.app().look().broken_jobs->front().sentence, HasSubstr("11 of 15 blocks"));
     person.keep("job-recovery");
     person.click("dialogs/broken_job/broken_job_continue");
     person.wait_idle();
-    EXPECT_FALSE(person.workshop().look().asks());
-    EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
-    EXPECT_EQ(person.workshop().session().begin.line, 12);
-    EXPECT_FALSE(person.workshop().look().job.running);
+    EXPECT_FALSE(person.app().look().asks());
+    EXPECT_EQ(person.app().view_state().workspace, Workspace::machine);
+    EXPECT_EQ(person.app().view_state().start_at.line, 12);
+    EXPECT_FALSE(person.app().look().job.running);
     connect(person, grbl);
     person.wait_idle();
-    const auto approach = person.workshop().look().approach;
+    const auto approach = person.app().look().approach;
     ASSERT_TRUE(approach && approach->job) << (approach ? approach->refusal->message : "no answer");
     EXPECT_FALSE(grbl.moving());
 
     // Another program would be begun at a line that means something else there.
     write_file(file, std::string("(changed)\n") + far_first);
-    person.workshop().session().begin.hash = jobs::read_job_log(log).start.program_hash;
-    const actions::BeginAt begin = person.workshop().session().begin;
+    person.app().view_state().start_at.hash = jobs::read_job_log(log).start.program_hash;
+    const actions::StartAt begin = person.app().view_state().start_at;
     person.open(file);
-    person.workshop().run("view.machine");
-    person.workshop().session().begin = begin;
+    person.app().run("view.machine");
+    person.app().view_state().start_at = begin;
     person.wait_idle();
-    ASSERT_TRUE(person.workshop().look().approach->refusal);
-    EXPECT_THAT(person.workshop().look().approach->refusal->message, HasSubstr("changed since"));
+    ASSERT_TRUE(person.app().look().approach->refusal);
+    EXPECT_THAT(person.app().look().approach->refusal->message, HasSubstr("changed since"));
 }
 
 TEST_F(MachineJobs, ThatWereDismissedAreNotAskedAboutAgain) {
@@ -296,17 +296,17 @@ TEST_F(MachineJobs, ThatWereDismissedAreNotAskedAboutAgain) {
         Person person({1280, 800}, {}, folder / "logs");
         person.wait_idle();
         person.click("dialogs/broken_job/broken_job_later");
-        EXPECT_FALSE(person.workshop().look().asks());
+        EXPECT_FALSE(person.app().look().asks());
     }
     {
         Person person({1280, 800}, {}, folder / "logs");
         person.wait_idle();
         person.click("dialogs/broken_job/broken_job_dismiss");
-        EXPECT_FALSE(person.workshop().look().asks());
+        EXPECT_FALSE(person.app().look().asks());
     }
     Person person({1280, 800}, {}, folder / "logs");
     person.wait_idle();
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_TRUE(std::filesystem::exists(log));
 }
 

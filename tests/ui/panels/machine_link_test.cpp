@@ -29,19 +29,19 @@ class MachineLink : public ::testing::Test {
 protected:
     Person person{{1280, 720}};
 
-    [[nodiscard]] actions::ControllerView machine() { return person.workshop().look().controller; }
+    [[nodiscard]] actions::ConnectionView machine() { return person.app().look().connection; }
     [[nodiscard]] bool is(DriverState state) {
         return machine().connected() && machine().status.state == state;
     }
 
     /// By the drop-down and the field, as a person does it.
     void choose(const std::string& driver, const std::string& address) {
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
         person.click("inspector/connection/driver");
         person.click("inspector/connection/driver/" + driver);
         person.frames(2);
-        ASSERT_EQ(person.workshop().session().hand.choice.driver, driver);
+        ASSERT_EQ(person.app().view_state().manual.choice.driver, driver);
         person.fill_in("inspector/connection/address", address);
     }
     void connect() {
@@ -53,7 +53,7 @@ protected:
     void lose(std::unique_ptr<emulators::GrblServer>& grbl, std::uint16_t port) {
         choose("grbl", "tcp:127.0.0.1:" + std::to_string(port));
         connect();
-        person.workshop().run("machine.reset");
+        person.app().run("machine.reset");
         ASSERT_TRUE(person.live_until([this] { return is(DriverState::idle); }));
         person.fill_in("lower/command", "G1 X80 F300");
         ASSERT_TRUE(person.live_until([this] { return is(DriverState::running); }));
@@ -87,7 +87,7 @@ TEST_F(MachineLink, SendsACoordinateStreamAndMakesALostLinkAgainWithoutMoving) {
     choose("stream", receiver->address());
     person.keep("machine-stream-choice");
     connect();
-    person.workshop().session().hand.step = 1.0;
+    person.app().view_state().manual.step = 1.0;
     person.frames(2);
     person.click("hand/jog/plus_X");
     ASSERT_TRUE(person.live_until([&] { return receiver->last_line().starts_with("1.0000 "); }))
@@ -242,7 +242,7 @@ TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
 TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {
     write_file(person.folder() / "part.ngc", "G21 G90 G94 G17\nG1 X10 F3000\nY5\nX0\nM2\n");
     person.open(person.folder() / "part.ngc");
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("inspector/connection/driver");
     person.click("inspector/connection/driver/cordic");
@@ -253,7 +253,7 @@ TEST_F(MachineLink, RunsAProgramOnTheCordicProcessorWithoutAnAddress) {
     person.frames(3);
     person.keep("machine-cordic");
     person.click("inspector/job/machine_run");
-    const auto job = [this] { return person.workshop().look().job; };
+    const auto job = [this] { return person.app().look().job; };
     ASSERT_TRUE(person.live_until([&] { return job().outcome || job().failure; }, 90.0));
     ASSERT_TRUE(job().outcome) << job().failure->message;
     EXPECT_EQ(job().outcome->end, jobs::JobEnd::done) << job().outcome->sentence;
@@ -274,7 +274,7 @@ TEST_F(MachineLink, SaysWhyLinuxCncIsNotConnected) {
     person.click("inspector/connection/driver");
     person.click("inspector/connection/driver/linuxcnc");
     person.frames(2);
-    EXPECT_EQ(person.workshop().session().hand.choice.address, "tcp:127.0.0.1:9");
+    EXPECT_EQ(person.app().view_state().manual.choice.address, "tcp:127.0.0.1:9");
 }
 
 } // namespace

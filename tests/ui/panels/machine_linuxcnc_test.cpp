@@ -39,8 +39,8 @@ protected:
     LinuxCncBench linuxcnc{"router-xyz", begin == DriverState::idle};
     Person person{{1280, 800}, {}, folder / "jobs"};
 
-    [[nodiscard]] actions::ControllerView machine() { return person.workshop().look().controller; }
-    [[nodiscard]] actions::JobView job() { return person.workshop().look().job; }
+    [[nodiscard]] actions::ConnectionView machine() { return person.app().look().connection; }
+    [[nodiscard]] actions::JobView job() { return person.app().look().job; }
     [[nodiscard]] bool comes_to_rest() {
         return person.live_until([this] { return linuxcnc.rested_for() > 0.2; }, 60.0);
     }
@@ -51,7 +51,7 @@ protected:
     }
 
     void connect() {
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
         person.click("inspector/connection/driver");
         person.click("inspector/connection/driver/linuxcnc");
@@ -94,7 +94,7 @@ protected:
     void load_and_run() {
         write_file(folder / "part.ngc", there_and_back);
         person.open(folder / "part.ngc");
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
         test::press_run(person);
         ASSERT_TRUE(person.live_until([this] { return linuxcnc.position(0) > 2.0; }, 60.0))
@@ -225,7 +225,7 @@ TEST_F(HomedLinuxCnc, IsJoggedByButtonAndStepAndZeroed) {
 
 TEST_F(MachineLinuxCnc, ShowsFiveAxesAndJogsThoseThatItCan) {
     LinuxCncBench five("ac-table");
-    person.workshop().session().hand.choice = {"linuxcnc", five.address(), "XYZAC"};
+    person.app().view_state().manual.choice = {"linuxcnc", five.address(), "XYZAC"};
     test::connect(person);
     person.frames(3);
     EXPECT_TRUE(person.sees("hand/position/axes/C"));

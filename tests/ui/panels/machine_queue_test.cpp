@@ -46,15 +46,13 @@ protected:
 
     static void add(Person& person, const std::filesystem::path& program) {
         person.open(program);
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
         person.click("lower/tabs/queue");
         person.click("lower/queue/queue_add");
     }
 
-    [[nodiscard]] static std::vector<QueuedJob> queue(Person& person) {
-        return person.workshop().look().queue;
-    }
+    [[nodiscard]] static std::vector<QueuedJob> queue(Person& person) { return person.app().look().queue; }
 
     [[nodiscard]] static std::vector<std::string> names(Person& person) {
         std::vector<std::string> names;
@@ -65,7 +63,7 @@ protected:
     }
 
     static void choose(Person& person, int id) {
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(2);
         person.click("lower/tabs/queue");
         person.click("lower/queue/jobs/job" + std::to_string(id));
@@ -74,14 +72,13 @@ protected:
     static void run_next(Person& person, std::size_t place, QueueState wanted) {
         person.frames(2);
         ASSERT_EQ(person.refusal("lower/queue/queue_run_next"), "");
-        if (person.workshop().look().controller.connected()) {
+        if (person.app().look().connection.connected()) {
             test::press_run(person, "lower/queue/queue_run_next");
         } else {
             person.click("lower/queue/queue_run_next"); // of the virtual machine nobody is asked
         }
         ASSERT_TRUE(person.live_until(
-            [&] { return queue(person)[place].state == wanted && !person.workshop().look().job.running; },
-            60.0))
+            [&] { return queue(person)[place].state == wanted && !person.app().look().job.running; }, 60.0))
             << to_text(queue(person)[place].state);
     }
 };
@@ -116,7 +113,7 @@ TEST_F(MachineQueue, OutlivesTheWindowAndIsTheCommandLinesToo) {
     person.click("lower/queue/open");
     person.wait_idle();
     EXPECT_TRUE(queue(person)[1].has_program);
-    EXPECT_EQ(person.workshop().look().opened->file, folder / "second.ngc");
+    EXPECT_EQ(person.app().look().opened->file, folder / "second.ngc");
     EXPECT_FALSE(grbl.moving());
     EXPECT_NEAR(grbl.position()[0], 2.0, 0.01);
     run_next(person, 1, QueueState::done);
@@ -125,7 +122,7 @@ TEST_F(MachineQueue, OutlivesTheWindowAndIsTheCommandLinesToo) {
     choose(person, 3);
     person.click("lower/queue/open");
     person.wait_idle();
-    EXPECT_THAT(person.workshop().session().log.back(), HasSubstr("not the program that was queued"));
+    EXPECT_THAT(person.app().view_state().log.back(), HasSubstr("not the program that was queued"));
     EXPECT_FALSE(queue(person)[2].has_program);
     EXPECT_NE(person.refusal("lower/queue/queue_run_next"), "");
     EXPECT_NEAR(grbl.position()[0], 4.0, 0.01);
@@ -161,14 +158,14 @@ TEST_F(MachineQueue, HoldsAJobThatWasRunningWhenTheWindowWasKilled) {
         ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
         // What a killed program leaves behind is what is on the disk by now.
         write_file(left / "queue.json", read_file(file));
-        person.workshop().run("machine.emergency_stop");
+        person.app().run("machine.emergency_stop");
         ASSERT_TRUE(person.live_until([&] { return queue(person)[0].state == QueueState::held; }));
     }
     Person person({1280, 800}, {}, left.path());
     ASSERT_EQ(queue(person).size(), 2U);
     EXPECT_EQ(queue(person)[0].state, QueueState::held);
     EXPECT_THAT(queue(person)[0].sentence, HasSubstr("Millwright ended while the job was running"));
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("lower/tabs/queue");
     EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("far did not finish successfully"));
@@ -178,21 +175,21 @@ TEST_F(MachineQueue, BelongsToOneWindowAndIsFreeWhenItIsEmpty) {
     auto first = std::make_unique<Person>(render::PixelSize{1280, 800}, std::filesystem::path{}, jobs);
     add(*first, program("first", 2));
     Person second({1280, 800}, {}, jobs);
-    second.workshop().run("view.machine");
+    second.app().run("view.machine");
     second.frames(3);
     second.click("lower/tabs/queue");
-    ASSERT_TRUE(second.workshop().look().queue_problem);
-    EXPECT_THAT(second.workshop().look().queue_problem->message,
+    ASSERT_TRUE(second.app().look().queue_problem);
+    EXPECT_THAT(second.app().look().queue_problem->message,
                 HasSubstr("in use by another instance of Millwright"));
     EXPECT_FALSE(second.sees("lower/queue/queue_add"));
     second.keep("machine-queue-in-use");
     second.click("lower/queue/retry");
-    EXPECT_TRUE(second.workshop().look().queue_problem);
+    EXPECT_TRUE(second.app().look().queue_problem);
     choose(*first, 1);
     first->click("lower/queue/remove");
     second.click("lower/queue/retry");
     second.frames(2);
-    EXPECT_FALSE(second.workshop().look().queue_problem);
+    EXPECT_FALSE(second.app().look().queue_problem);
     add(second, program("second", 4));
     EXPECT_EQ(names(second), std::vector<std::string>{"second"});
 }
@@ -203,14 +200,14 @@ TEST_F(MachineQueue, OfADamagedFileSaysWhereAndLeavesItAlone) {
     make_folder(jobs);
     write_file(file, damaged);
     Person person({1280, 800}, {}, jobs);
-    const auto problem = person.workshop().look().queue_problem;
+    const auto problem = person.app().look().queue_problem;
     ASSERT_TRUE(problem);
     EXPECT_EQ(problem->place.line, 3);
     person.open(program("first", 2));
     actions::ActionQueue ask;
     ask.run("queue.add");
-    person.workshop().perform(ask);
-    EXPECT_THAT(person.workshop().session().log.back(), HasSubstr("99"));
+    person.app().perform(ask);
+    EXPECT_THAT(person.app().view_state().log.back(), HasSubstr("99"));
     EXPECT_EQ(read_file(file), damaged);
     EXPECT_TRUE(queue(person).empty());
 }
@@ -224,27 +221,27 @@ TEST_F(MachineQueue, MakesAJobAnewForAnotherKindOfMachine) {
         EXPECT_FALSE(queue(person)[0].has_motion);
         person.click("inspector/connection/machine_disconnect");
         ASSERT_TRUE(person.live_until(
-            [&] { return person.workshop().look().controller.link == actions::LinkState::none; }));
+            [&] { return person.app().look().connection.link == actions::LinkState::none; }));
     }
     person.frames(2);
     EXPECT_THAT(person.refusal("lower/queue/queue_run_next"), HasSubstr("another type of machine"));
-    person.workshop().run("queue.run_next");
-    EXPECT_FALSE(person.workshop().look().job.running);
+    person.app().run("queue.run_next");
+    EXPECT_FALSE(person.app().look().job.running);
     choose(person, 1);
     person.click("lower/queue/open");
     person.wait_idle();
     EXPECT_TRUE(queue(person)[0].has_motion);
-    person.workshop().session().machine_speed = 0.0;
+    person.app().view_state().machine_speed = 0.0;
     run_next(person, 0, QueueState::done);
 }
 
 TEST_F(MachineQueue, TakesNoProjectThatIsNotSaved) {
     Person person({1280, 800}, {}, jobs);
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("lower/tabs/queue");
     EXPECT_THAT(person.refusal("lower/queue/queue_add"), HasSubstr("Save the project first"));
-    person.workshop().save(folder / "dome.json");
+    person.app().save(folder / "dome.json");
     person.frames(3);
     EXPECT_EQ(person.refusal("lower/queue/queue_add"), "");
 }
@@ -258,11 +255,11 @@ TEST_F(MachineQueue, SaysThatTheEndOfAJobCannotBeWritten) {
     ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
     std::filesystem::remove(file);
     std::filesystem::create_directories(file / "in_the_way");
-    person.workshop().run("machine.stop");
-    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }, 60.0));
+    person.app().run("machine.stop");
+    ASSERT_TRUE(person.live_until([&] { return !person.app().look().job.running; }, 60.0));
     person.frames(2);
     EXPECT_EQ(queue(person)[0].state, QueueState::held);
-    EXPECT_THAT(person.workshop().session().log, testing::Contains(HasSubstr("queue could not be written")));
+    EXPECT_THAT(person.app().view_state().log, testing::Contains(HasSubstr("queue could not be written")));
     std::filesystem::remove_all(file);
 }
 
@@ -272,18 +269,18 @@ TEST_F(MachineQueue, AJobOfAnotherFileLeavesWhatIsShownAlone) {
     connect(person, grbl);
     add(person, program("queued", 4));
     person.open(program("shown", 9));
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
-    person.workshop().session().playback.time = 0.05;
+    person.app().view_state().playback.time = 0.05;
     person.frames(2);
     run_next(person, 0, QueueState::done);
     person.frames(3);
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_NEAR(grbl.position()[0], 4.0, 0.01);
     EXPECT_FALSE(now.job_is_shown());
     EXPECT_NEAR(now.time(), 0.05, 1e-12);
     person.open(folder / "queued.ngc");
-    EXPECT_TRUE(person.workshop().look().job_is_shown());
+    EXPECT_TRUE(person.app().look().job_is_shown());
 }
 
 TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
@@ -298,7 +295,7 @@ TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
     person.keep("machine-queue");
     EXPECT_FALSE(grbl.moving());
     const auto done = [&] {
-        return std::ranges::count(person.workshop().look().queue, QueueState::done, &QueuedJob::state);
+        return std::ranges::count(person.app().look().queue, QueueState::done, &QueuedJob::state);
     };
     const auto run_next = [&](double x) {
         ASSERT_TRUE(person.live_until([&] { return machine_is(person, DriverState::idle); }));
@@ -306,14 +303,14 @@ TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
         const auto before = done();
         test::press_run(person, "lower/queue/queue_run_next");
         ASSERT_TRUE(person.live_until(
-            [&] { return done() == before + 1 && !person.workshop().look().job.running; }, 60.0));
+            [&] { return done() == before + 1 && !person.app().look().job.running; }, 60.0));
         EXPECT_NEAR(grbl.position()[0], x, 0.01);
         person.frames(20);
-        EXPECT_FALSE(person.workshop().look().job.running); // the next waits for its word
+        EXPECT_FALSE(person.app().look().job.running); // the next waits for its word
     };
     run_next(2.0);
     run_next(6.0);
-    const auto queued = person.workshop().look().queue;
+    const auto queued = person.app().look().queue;
     ASSERT_EQ(queued.size(), 3U);
     EXPECT_EQ(queued[1].name, "third");
     EXPECT_EQ(queued[1].state, QueueState::done);
@@ -324,19 +321,18 @@ TEST_F(MachineQueue, BeginsOneByOneByAPersonsWord) {
     person.frames(2);
     test::press_run(person, "lower/queue/queue_run_next");
     ASSERT_TRUE(person.live_until([&] { return grbl.moving(); }));
-    person.workshop().run("machine.emergency_stop");
-    ASSERT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
-    ASSERT_TRUE(
-        person.live_until([&] { return person.workshop().look().queue[2].state == QueueState::held; }));
+    person.app().run("machine.emergency_stop");
+    ASSERT_TRUE(person.live_until([&] { return !person.app().look().job.running; }));
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().queue[2].state == QueueState::held; }));
     person.frames(3);
     EXPECT_THAT(person.refusal("lower/queue/queue_run_next"),
                 HasSubstr("second did not finish successfully"));
     person.keep("machine-queue-held");
     person.click("lower/queue/queue_remove_done");
-    EXPECT_EQ(person.workshop().look().queue.size(), 1U);
+    EXPECT_EQ(person.app().look().queue.size(), 1U);
     person.click("lower/queue/jobs/job2");
     person.click("lower/queue/release");
-    EXPECT_EQ(person.workshop().look().queue[0].state, QueueState::waiting);
+    EXPECT_EQ(person.app().look().queue[0].state, QueueState::waiting);
 }
 
 } // namespace

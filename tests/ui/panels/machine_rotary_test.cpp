@@ -17,9 +17,9 @@ using test::Person;
 TEST(MachineWithRotaryAxes, IsNamedReadOutJoggedAndZeroed) {
     GrblBench grbl({.firmware = emulators::EmulatedFirmware::grblhal, .axes = "XYZAB"});
     Person person({1280, 900});
-    person.workshop().session().hand.turn_deg_per_min = 1800.0;
+    person.app().view_state().manual.turn_deg_per_min = 1800.0;
     test::connect(person, grbl);
-    const auto machine = [&] { return person.workshop().look().controller; };
+    const auto machine = [&] { return person.app().look().connection; };
     EXPECT_EQ(machine().firmware, "grblHAL 1.1f (20240817)");
     ASSERT_EQ(machine().axes.size(), 5U);
     for (const char* path : {"inspector/connection/firmware",

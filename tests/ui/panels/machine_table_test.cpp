@@ -39,16 +39,16 @@ class MachineTable : public ::testing::Test {
 protected:
     void connect() {
         person.open(rows(person.folder()));
-        auto& choice = person.workshop().session().hand.choice;
+        auto& choice = person.app().view_state().manual.choice;
         choice.driver = "records";
         choice.address = table.port();
         choice.record.emplace();
         choice.record->answer = "ok";
         test::connect(person);
     }
-    [[nodiscard]] actions::Workbench now() { return person.workshop().look(); }
+    [[nodiscard]] actions::FrameState now() { return person.app().look(); }
     [[nodiscard]] bool known() {
-        const drivers::DriverStatus status = now().controller.status;
+        const drivers::DriverStatus status = now().connection.status;
         return status.position_known && status.position_doubt.empty();
     }
     void begin_at(int line) {
@@ -75,7 +75,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     EXPECT_TRUE(person.sees("hand/messages/stands/there"));
     begin_at(20);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not report its position"));
-    person.workshop().run("machine.run");
+    person.app().run("machine.run");
     person.frames(5);
     EXPECT_FALSE(now().job.running);
     EXPECT_EQ(table.records(), 0);
@@ -91,7 +91,7 @@ TEST_F(MachineTable, BeginsAtALineFromWhereAPersonSaysThatItStands) {
     double most_left = 0.0;
     ASSERT_TRUE(person.live_until(
         [&] {
-            const actions::Workbench shown = now();
+            const actions::FrameState shown = now();
             if (shown.job.running && shown.job.report) {
                 first_line = std::min(first_line, shown.file_place().value().line);
                 most_left = std::max(most_left, job_time_left(shown, *shown.job.report).value_or(0.0));
@@ -113,14 +113,14 @@ TEST_F(MachineTable, AJobThatBeganAtALineIsOfferedAgainFromWhereItStopped) {
     begin_at(20);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return table.position()[1] > 26.0; }, 60.0));
-    person.workshop().run("machine.stop");
+    person.app().run("machine.stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
     const double row = table.position()[1];
     EXPECT_LT(row, program_lines - 1);
     person.frames(3);
     person.click("inspector/job/begin/on");
     person.frames(2);
-    EXPECT_NEAR(now().session.begin.line, row + 1.0, 1.0);
+    EXPECT_NEAR(now().view_state.start_at.line, row + 1.0, 1.0);
     person.keep("table-goes-on");
 }
 
@@ -143,22 +143,22 @@ TEST_F(MachineTable, BeginsNothingAfterAnEmergencyStopBeforeAPersonHasLooked) {
     // Within a row: between two rows the table has answered, and its position is known.
     ASSERT_TRUE(person.live_until(
         [&] {
-            const drivers::DriverStatus status = now().controller.status;
+            const drivers::DriverStatus status = now().connection.status;
             return status.position[1] > 8.0 && status.sent_blocks > status.executed_blocks;
         },
         60.0));
-    person.workshop().run("machine.emergency_stop");
+    person.app().run("machine.emergency_stop");
     ASSERT_TRUE(person.live_until([&] { return now().job.outcome.has_value(); }));
     EXPECT_THAT(now().job.outcome->sentence, HasSubstr("had been sent, and it is not known how far"));
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::alarm); }));
-    person.workshop().run("machine.reset");
+    person.app().run("machine.reset");
     ASSERT_TRUE(person.live_until([&] { return test::machine_is(person, DriverState::idle); }));
     person.frames(3);
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("does not report its position"));
     person.keep("table-in-doubt");
     // The place before the row, which it would confirm, is not where the table is.
     EXPECT_FALSE(person.sees("hand/messages/machine_trust_position"));
-    EXPECT_THAT(person.workshop().catalogue().find("machine.trust_position").permission(now()).reason,
+    EXPECT_THAT(person.app().catalogue().find("machine.trust_position").permission(now()).reason,
                 HasSubstr("does not report its position"));
     const auto at = table.position();
     say_where("hand/messages/stands", at[0], at[1], at[2]);
@@ -184,12 +184,12 @@ unsigned baud_of(const std::string& path) {
 
 TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
     person.open(rows(person.folder()));
-    auto& choice = person.workshop().session().hand.choice;
+    auto& choice = person.app().view_state().manual.choice;
     choice.driver = "records";
     choice.address = table.port();
     choice.record.emplace();
     choice.record->answer = "ok";
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.click("inspector/connection/serial");
     person.frames(2);
@@ -201,7 +201,7 @@ TEST_F(MachineTable, IsConnectedToAtTheRateThatIsChosenInTheWindow) {
     test::connect(person);
     EXPECT_EQ(baud_of(table.port()), 19200U);
     person.click("inspector/connection/machine_disconnect");
-    ASSERT_TRUE(person.live_until([&] { return now().controller.link == actions::LinkState::none; }));
+    ASSERT_TRUE(person.live_until([&] { return now().connection.link == actions::LinkState::none; }));
     person.choose("inspector/connection/serial/rate", "9600");
     test::connect(person);
     EXPECT_EQ(baud_of(table.port()), 9600U);
@@ -215,10 +215,10 @@ TEST_F(MachineTable, EndsItsRecordsAsIsChosenInTheWindow) {
     }
     write_file(person.folder() / "short.ngc", program + "M2\n");
     person.open(person.folder() / "short.ngc");
-    auto& choice = person.workshop().session().hand.choice;
+    auto& choice = person.app().view_state().manual.choice;
     choice.driver = "records";
     choice.address = "file:" + sent.string();
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(3);
     person.choose("inspector/connection/ending", "crlf");
     ASSERT_TRUE(choice.record);

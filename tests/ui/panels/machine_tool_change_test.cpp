@@ -2,8 +2,8 @@
 #include "core/base/files.h"
 #include "tests/ui/panels/at_machine.h"
 #include "ui/actions/job_source.h"
-#include "ui/actions/kept_session.h"
-#include "ui/actions/start_question.h"
+#include "ui/actions/kept_view_state.h"
+#include "ui/actions/start_prompt.h"
 #include "ui/actions/tool_changes.h"
 
 #include <gmock/gmock.h>
@@ -30,10 +30,10 @@ protected:
         write_file(person.folder() / "part.ngc", program);
         person.open(person.folder() / "part.ngc");
         person.wait_idle();
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
     }
-    [[nodiscard]] drivers::DriverStatus status() { return person.workshop().look().controller.status; }
+    [[nodiscard]] drivers::DriverStatus status() { return person.app().look().connection.status; }
     [[nodiscard]] bool waits() {
         return actions::waits_for_tool(status()) && status().state == DriverState::holding;
     }
@@ -47,13 +47,13 @@ protected:
 
 TEST_P(ToolChangeAtGrbl, WaitsWhileThePersonJogsAndZeroesAndGoesOnWithContinue) {
     open(two_tools);
-    person.workshop().session().hand.tool_changes[grbl.port()].plan.spin_up = 0.0;
+    person.app().view_state().manual.tool_changes[grbl.port()].plan.spin_up = 0.0;
     test::press_run(person);
     ASSERT_TRUE(person.live_until([this] { return waits(); }));
     EXPECT_TRUE(person.sees("inspector/job/tool_change"));
     EXPECT_THAT(status().message, HasSubstr("change to tool 3 at line 6: M6 (6 mm end mill)"));
     person.keep(name("tool-change-waits"));
-    person.workshop().session().hand.step = 10.0;
+    person.app().view_state().manual.step = 10.0;
     person.frames(2);
     for (const char* button : {"hand/jog/minus_X", "hand/jog/minus_Z", "hand/position/zero_Z"}) {
         ASSERT_TRUE(person.sees(button)) << button;
@@ -65,11 +65,11 @@ TEST_P(ToolChangeAtGrbl, WaitsWhileThePersonJogsAndZeroesAndGoesOnWithContinue) 
     ASSERT_TRUE(person.live_until([this] { return waits() && grbl.position()[2] < -3.9; }));
     person.click("hand/position/zero_Z");
     ASSERT_TRUE(person.live_until([this] { return waits() && status().work_offset[2] < -3.9; }));
-    EXPECT_TRUE(person.workshop().look().job.running);
+    EXPECT_TRUE(person.app().look().job.running);
     person.click("inspector/job/machine_resume");
-    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().job.outcome.has_value(); }, 60.0));
-    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::done)
-        << person.workshop().look().job.outcome->sentence;
+    ASSERT_TRUE(person.live_until([this] { return person.app().look().job.outcome.has_value(); }, 60.0));
+    EXPECT_EQ(person.app().look().job.outcome->end, jobs::JobEnd::done)
+        << person.app().look().job.outcome->sentence;
     EXPECT_NEAR(grbl.position()[2], 4.0, 0.01); // Z8 from the new zero
     EXPECT_FALSE(person.sees("inspector/job/tool_change"));
 }
@@ -80,9 +80,9 @@ TEST_P(ToolChangeAtGrbl, StopEndsTheJobThatWaits) {
     ASSERT_TRUE(person.live_until([this] { return waits(); }));
     const auto there = grbl.position();
     person.click("inspector/job/machine_stop");
-    ASSERT_TRUE(person.live_until([this] { return person.workshop().look().job.outcome.has_value(); }));
-    EXPECT_EQ(person.workshop().look().job.outcome->end, jobs::JobEnd::stopped);
-    EXPECT_EQ(person.workshop().look().job.outcome->executed_blocks, 5);
+    ASSERT_TRUE(person.live_until([this] { return person.app().look().job.outcome.has_value(); }));
+    EXPECT_EQ(person.app().look().job.outcome->end, jobs::JobEnd::stopped);
+    EXPECT_EQ(person.app().look().job.outcome->executed_blocks, 5);
     EXPECT_EQ(grbl.position(), there);
 }
 
@@ -104,19 +104,19 @@ TEST_P(ToolChangeAtGrbl, TheSensorHasItsFieldsAndIsCheckedBefore) {
     person.fill_in("inspector/tool_changes/deepest_z", "-40");
     person.bring_into_sight("inspector/tool_changes/sensor_feed");
     person.keep(name("tool-change-sensor"));
-    const auto& kept = person.workshop().session().hand.tool_changes.at(grbl.port());
+    const auto& kept = person.app().view_state().manual.tool_changes.at(grbl.port());
     EXPECT_EQ(kept.plan.way, ToolChangeWay::probe);
     EXPECT_EQ(kept.plan.sensor.x, -12.5);
     EXPECT_EQ(kept.plan.sensor.deepest_z, -40.0);
     ASSERT_TRUE(person.live_until([this] { return !person.refusal("inspector/job/machine_run").empty(); }));
-    const auto checked = person.workshop().look().run_check;
+    const auto checked = person.app().look().run_check;
     ASSERT_TRUE(checked);
     EXPECT_TRUE(std::ranges::any_of(checked->faults, [](const Diagnostic& fault) {
         return fault.message.find("needs a machine that homes") != std::string::npos;
     }));
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     const auto wish = std::make_shared<const actions::StartWish>(
-        actions::start_wish(actions::wanted_job(now), {}, now.controller));
+        actions::start_wish(actions::wanted_job(now), {}, now.connection));
     EXPECT_THAT(actions::check_start(wish, {}).tool,
                 HasSubstr("The tool with which the Z zero was set must be in the spindle"));
 }
@@ -126,19 +126,19 @@ INSTANTIATE_TEST_SUITE_P(Windows,
                          ::testing::Values(render::PixelSize{1280, 800}, render::PixelSize{1024, 700}));
 
 TEST(ToolChangeSettings, AreKeptForEachPort) {
-    actions::Session session;
+    actions::ViewState view_state;
     actions::ToolChangeSettings settings;
     settings.here = false;
     settings.plan = {.way = ToolChangeWay::macro,
                      .spin_up = 1.5,
                      .sensor = {.x = -1.25, .y = 2.0, .travel_z = -3.0, .deepest_z = -44.0, .feed = 150.0},
                      .macro_file = "/home/me/my lines.nc"};
-    session.hand.tool_changes["/dev/ttyUSB0"] = settings;
-    session.hand.tool_changes["tcp:cnc:23"].plan.way = ToolChangeWay::probe;
-    const auto kept = actions::kept_of(session, {});
-    actions::Session again;
+    view_state.manual.tool_changes["/dev/ttyUSB0"] = settings;
+    view_state.manual.tool_changes["tcp:cnc:23"].plan.way = ToolChangeWay::probe;
+    const auto kept = actions::kept_of(view_state, {});
+    actions::ViewState again;
     EXPECT_THAT(actions::restore(again, kept), testing::IsEmpty());
-    EXPECT_EQ(again.hand.tool_changes, session.hand.tool_changes);
+    EXPECT_EQ(again.manual.tool_changes, view_state.manual.tool_changes);
     EXPECT_EQ(actions::restore(again, {{"tool_change.x", "here stop nan 0 0 0 0 0 "}}).size(), 1u);
     EXPECT_FALSE(actions::tool_changes_of("sometimes stop 3 0 0 0 0 200 "));
 }

@@ -23,10 +23,10 @@ protected:
     }
 
     template <class Change> void change(const Change& how) {
-        person_.workshop().edit("Change the project", how, {});
+        person_.app().edit("Change the project", how, {});
         person_.wait_idle();
     }
-    static OutlineRow row(const actions::Workbench& now, const std::string& id) {
+    static OutlineRow row(const actions::FrameState& now, const std::string& id) {
         const auto rows = outline_rows(now);
         const auto found = std::ranges::find(rows, id, &OutlineRow::id);
         return found == rows.end() ? OutlineRow{"none", {}, {}, actions::Workspace::grid} : *found;
@@ -36,12 +36,12 @@ protected:
 };
 
 TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
-    actions::Workbench now = person_.workshop().look();
+    actions::FrameState now = person_.app().look();
     EXPECT_FALSE(row(now, "tracks").so_far);
     EXPECT_NE(row(now, "tracks").detail.front(), '~');
     plan::PublishedPlan plan = *now.plan;
     plan::Evaluation coarse = *plan.plan.grid(GridMethod::tracks).evaluation;
-    coarse.outcome.status = grid::ImproverStatus::running;
+    coarse.outcome.status = grid::OptimiserStatus::running;
     plan.plan.grid(GridMethod::tracks).evaluation =
         std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
@@ -50,8 +50,8 @@ TEST_F(Outline, AFigureOfARunningWorkIsMarked) {
     for (const char* made_of_it : {"toolpath", "program", "machine"}) {
         EXPECT_TRUE(row(now, made_of_it).so_far) << made_of_it;
         EXPECT_EQ(row(now, made_of_it).detail.substr(0, 2), "~ ") << made_of_it;
-        EXPECT_FALSE(row(person_.workshop().look(), made_of_it).so_far) << made_of_it;
-        EXPECT_NE(row(person_.workshop().look(), made_of_it).detail.front(), '~') << made_of_it;
+        EXPECT_FALSE(row(person_.app().look(), made_of_it).so_far) << made_of_it;
+        EXPECT_NE(row(person_.app().look(), made_of_it).detail.front(), '~') << made_of_it;
     }
     EXPECT_FALSE(row(now, "uniform").so_far);
 }
@@ -62,7 +62,7 @@ TEST_F(Outline, GridsOfVeryManyNodesAreLeftOutUnlessTheProgramUsesThem) {
         p.grid.nv = 500;
         p.grid.method = GridMethod::uniform;
     });
-    const actions::Workbench now = person_.workshop().look();
+    const actions::FrameState now = person_.app().look();
     EXPECT_TRUE(now.program());
     EXPECT_EQ(row(now, "elliptic").detail, "skipped");
     EXPECT_EQ(row(now, "tracks").detail, "skipped");
@@ -72,20 +72,20 @@ TEST_F(Outline, GridsOfVeryManyNodesAreLeftOutUnlessTheProgramUsesThem) {
 }
 
 TEST_F(Outline, WhatStandsInForANewGridIsMarkedWhileThatIsMadeAndWhereItWasCancelled) {
-    person_.workshop().edit("Bend the part",
-                            [](project::Project& p) {
-                                p.grid.nu = p.grid.nv = 20;
-                                p.grid.method = GridMethod::uniform;
-                            },
-                            {});
+    person_.app().edit("Bend the part",
+                       [](project::Project& p) {
+                           p.grid.nu = p.grid.nv = 20;
+                           p.grid.method = GridMethod::uniform;
+                       },
+                       {});
     person_.wait_idle();
-    person_.workshop().edit("Bend the part",
-                            [](project::Project& p) {
-                                p.surface.patches.front().point(1, 1).z() += 5.0;
-                                p.grid.method = GridMethod::chain;
-                            },
-                            {});
-    const auto now = [&] { return person_.workshop().look(); };
+    person_.app().edit("Bend the part",
+                       [](project::Project& p) {
+                           p.surface.patches.front().point(1, 1).z() += 5.0;
+                           p.grid.method = GridMethod::chain;
+                       },
+                       {});
+    const auto now = [&] { return person_.app().look(); };
     ASSERT_TRUE(person_.live_until([&] { return now().activity.text == "Moving all nodes at once"; }, 120.0));
     EXPECT_TRUE(row(now(), "elliptic").so_far);
     EXPECT_TRUE(row(now(), "uniform").so_far) << "which was measured coarsely";
@@ -93,7 +93,7 @@ TEST_F(Outline, WhatStandsInForANewGridIsMarkedWhileThatIsMadeAndWhereItWasCance
         EXPECT_NE(cut.front(), '~') << cut;
     }
     person_.keep("outline-so-far");
-    person_.workshop().run("work.cancel");
+    person_.app().run("work.cancel");
     person_.wait_idle();
     EXPECT_TRUE(row(now(), "elliptic").so_far);
 }
@@ -104,7 +104,7 @@ TEST_F(Outline, CountsTheMovesOfTheProgramWhateverIsWatched) {
     EXPECT_FALSE(person_.sees("inspector/watch/grid_use_elliptic"));
     person_.click("inspector/watch/grid_adapt");
     person_.wait_idle();
-    const actions::Workbench now = person_.workshop().look();
+    const actions::FrameState now = person_.app().look();
     ASSERT_NE(now.shown(), now.program_path());
     ASSERT_NE(now.shown()->field.moves.size(), now.program_path()->field.moves.size());
     EXPECT_EQ(row(now, "toolpath").detail, fmt::format("{} moves", now.program_path()->field.moves.size()));

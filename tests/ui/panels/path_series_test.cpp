@@ -46,15 +46,14 @@ class PlottedPaths : public ::testing::Test {
 protected:
     PlottedPaths() {
         person_.open("assets/projects/dome.json"); // whose program follows the optimised tracks
-        person_.workshop().edit(
-            "Change the grid", [](project::Project& p) { p.grid.nu = p.grid.nv = 8; }, {});
+        person_.app().edit("Change the grid", [](project::Project& p) { p.grid.nu = p.grid.nv = 8; }, {});
         person_.press_key(render::Key::f4);
         person_.wait_idle();
     }
 
     /// The last one is what the view draws, whatever is done.
     [[nodiscard]] std::vector<std::string> names() {
-        const actions::Workbench now = person_.workshop().look();
+        const actions::FrameState now = person_.app().look();
         std::vector<std::string> names;
         for (const PlottedPath& path : plotted_paths(now)) {
             names.push_back(path.name);
@@ -65,7 +64,7 @@ protected:
         return names;
     }
     void run(const char* action) {
-        person_.workshop().run(action);
+        person_.app().run(action);
         person_.frames();
         person_.wait_idle();
     }
@@ -104,10 +103,10 @@ TEST_F(PlottedPaths, OfAGridThatIsOnlyWatchedThereIsNoneAndTheProgramsStands) {
 }
 
 TEST_F(PlottedPaths, AreMarkedSoFarAndNoneWhereAFileIsOnScreen) {
-    actions::Workbench now = person_.workshop().look();
+    actions::FrameState now = person_.app().look();
     plan::PublishedPlan plan = *now.plan;
     plan::Evaluation coarse = *plan.plan.grid(GridMethod::tracks).evaluation;
-    coarse.outcome.status = grid::ImproverStatus::running;
+    coarse.outcome.status = grid::OptimiserStatus::running;
     plan.plan.grid(GridMethod::tracks).evaluation =
         std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
@@ -125,12 +124,12 @@ TEST_F(PlottedPaths, OnlyTheProgramsTakesTheTimelineAlong) {
     const auto plot = person_.place("lower/error");
     const widgets::Point late{plot.x + 0.8F * plot.w, plot.y + 0.5F * plot.h};
     run("view.show_uniform");
-    const double before = person_.workshop().session().playback.time;
+    const double before = person_.app().view_state().playback.time;
     person_.click_at(late);
-    EXPECT_EQ(person_.workshop().session().playback.time, before);
+    EXPECT_EQ(person_.app().view_state().playback.time, before);
     run("view.show_tracks");
     person_.click_at(late);
-    EXPECT_GT(person_.workshop().session().playback.time, before);
+    EXPECT_GT(person_.app().view_state().playback.time, before);
 }
 
 } // namespace

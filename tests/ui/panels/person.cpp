@@ -1,7 +1,7 @@
 #include "tests/ui/panels/person.h"
 
 #include "core/base/error.h"
-#include "ui/actions/jog_hand.h"
+#include "ui/actions/hold_to_run_jog.h"
 
 #include <unistd.h>
 
@@ -59,13 +59,13 @@ Person::Person(const render::PixelSize& screen, double scale) : Person(screen, s
 
 Person::Person(const render::PixelSize& screen, double scale, const Folders& folders)
     : scale_(static_cast<float>(scale)), folder_(fresh_folder()), context_(screen, scale),
-      workshop_({.assets = "assets",
-                 .log_folder = folders.jobs.empty() ? folder_ / "jobs" : folders.jobs,
-                 .settings = (folders.settings.empty() ? folder_ : folders.settings) / "recent.json",
-                 .recovery = folders.recovery,
-                 .wake = [] {},
-                 .start = small_sample()}) {
-    desktop_ = std::make_unique<panels::Desktop>(context_, workshop_);
+      app_({.assets = "assets",
+            .log_folder = folders.jobs.empty() ? folder_ / "jobs" : folders.jobs,
+            .settings = (folders.settings.empty() ? folder_ : folders.settings) / "recent.json",
+            .recovery = folders.recovery,
+            .wake = [] {},
+            .start = small_sample()}) {
+    desktop_ = std::make_unique<panels::Desktop>(context_, app_);
     wait_idle();
 }
 
@@ -74,12 +74,12 @@ Person::~Person() {
 }
 
 void Person::open(const std::filesystem::path& project_file) {
-    workshop_.open(project_file);
+    app_.open(project_file);
     wait_idle();
 }
 
 void Person::frame() {
-    (void)workshop_.advance(static_cast<double>(input_.seconds));
+    (void)app_.advance(static_cast<double>(input_.seconds));
     desktop_->frame_unseen(input_);
     input_.text.clear();
     input_.wheel = 0.0F;
@@ -93,7 +93,7 @@ void Person::frames(int count) {
 
 void Person::wait_idle() {
     frames(2);
-    workshop_.wait_idle();
+    app_.wait_idle();
     frames(3);
 }
 
@@ -121,7 +121,7 @@ bool Person::hold_until(const std::function<bool()>& done, double seconds) {
         }
         const auto now = Clock::now();
         if (std::chrono::duration<double>(now - std::exchange(last, now)).count() >
-            0.5 * actions::JogHand::longest_frame) {
+            0.5 * actions::HoldToRunJog::longest_frame) {
             press_anew();
         }
     }

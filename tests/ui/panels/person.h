@@ -35,9 +35,9 @@ public:
     Person& operator=(const Person&) = delete;
     ~Person();
 
-    [[nodiscard]] actions::Workshop& workshop() { return workshop_; }
+    [[nodiscard]] actions::AppController& app() { return app_; }
     [[nodiscard]] panels::Desktop& desktop() { return *desktop_; }
-    [[nodiscard]] const project::Project& project() { return workshop_.look().project; }
+    [[nodiscard]] const project::Project& project() { return app_.look().project; }
 
     void open(const std::filesystem::path& project_file);
     /// Draws `count` frames of 1/60 s, without anything being done.
@@ -48,7 +48,7 @@ public:
     /// Frames at the pace of a screen, until `done` has become true and been drawn, or the time is over.
     bool live_until(const std::function<bool()>& done, double seconds = 20.0);
     /// The same with what is held down now. After a frame in which the computer stood still, the window wants
-    /// another press (actions::JogHand::longest_frame): it gets one.
+    /// another press (actions::HoldToRunJog::longest_frame): it gets one.
     bool hold_until(const std::function<bool()>& done, double seconds = 20.0);
 
     /// Where a widget was in the last frame. Throws Error if it was not drawn.
@@ -98,7 +98,7 @@ private:
     float scale_; ///< of the monitor
     std::filesystem::path folder_;
     render::OffscreenContext context_;
-    actions::Workshop workshop_;
+    actions::AppController app_;
     std::unique_ptr<panels::Desktop> desktop_;
     render::InputState input_;
 };

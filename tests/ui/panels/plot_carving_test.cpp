@@ -39,7 +39,7 @@ TEST(PlotCarving, ADrawingIsCarvedAndColouredByItsDepth) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
     EXPECT_FALSE(bench.person.sees("inspector/cutter/tool_mm")); // of the end mill
-    EXPECT_TRUE(bench.person.workshop().look().in_file());       // its program can be played
+    EXPECT_TRUE(bench.person.app().look().in_file());            // its program can be played
     bench.person.click("inspector/plot_space");
     bench.settle();
     bench.person.keep("plot-carving");

@@ -67,8 +67,8 @@ TEST(PlotFiles, NothingOfTheFileBeforeIsShownOrSentForThisOne) {
         strokes += "PU" + std::to_string(at) + "," + std::to_string(n % 9973) + ";PD" +
                    std::to_string(at + 5) + "," + std::to_string(n % 9973) + ";";
     }
-    bench.person.workshop().receive({file_in(bench, "many.plt", strokes)});
-    bench.person.workshop().edit( // takes its time where there is much to order
+    bench.person.app().receive({file_in(bench, "many.plt", strokes)});
+    bench.person.app().edit( // takes its time where there is much to order
         "Order",
         [](project::Project& draft) { draft.plot.settings.strokes.order = true; },
         {});
@@ -93,7 +93,7 @@ TEST(PlotFiles, FiguresOfOtherSettingsAreNotShownForThese) {
     constexpr int tries = 100;
     bool cancelled = false;
     for (int n = 0; n < tries && !cancelled; ++n) {
-        bench.person.workshop().edit(
+        bench.person.app().edit(
             "Change depth", [n](project::Project& draft) { draft.plot.settings.safe_height = 7.0 + n; }, {});
         bench.plot().cancel();
         bench.plot().wait_idle();
@@ -113,17 +113,17 @@ TEST(PlotFiles, FiguresOfOtherSettingsAreNotShownForThese) {
 
 TEST(PlotFiles, WhatWasSetForOneDrawingIsNotDoneToTheNext) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    bench.person.workshop().edit("Shape",
-                                 [](project::Project& draft) {
-                                     project::PlotSettings& set = draft.plot.settings;
-                                     set.strokes.link = 3.0;
-                                     set.strokes.hatch_pitch = 1.0;
-                                     set.strokes.tool_diameter = 2.0;
-                                     set.origin = {5.0, 5.0};
-                                     set.through = true;
-                                     set.plate = 4.0;
-                                 },
-                                 {});
+    bench.person.app().edit("Shape",
+                            [](project::Project& draft) {
+                                project::PlotSettings& set = draft.plot.settings;
+                                set.strokes.link = 3.0;
+                                set.strokes.hatch_pitch = 1.0;
+                                set.strokes.tool_diameter = 2.0;
+                                set.origin = {5.0, 5.0};
+                                set.through = true;
+                                set.plate = 4.0;
+                            },
+                            {});
     bench.drop(file_in(bench, "line.plt", "IN;SP1;PU0,0;PD400,0;PU;"));
     const project::PlotSettings& set = bench.plot().settings();
     EXPECT_EQ(set.strokes, (plot::StrokePlan{.tool_diameter = 2.0}));
@@ -150,18 +150,18 @@ TEST(PlotFiles, AnotherFileIsPlayedFromItsBeginning) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("timeline/timeline/last");
     bench.person.frames(3);
-    ASSERT_GT(bench.person.workshop().look().time(), 0.0);
+    ASSERT_GT(bench.person.app().look().time(), 0.0);
     bench.drop(file_in(bench, "turns.ngc", with_s));
-    ASSERT_GT(bench.person.workshop().look().duration(), 0.0);
-    EXPECT_DOUBLE_EQ(bench.person.workshop().look().time(), 0.0);
+    ASSERT_GT(bench.person.app().look().duration(), 0.0);
+    EXPECT_DOUBLE_EQ(bench.person.app().look().time(), 0.0);
 }
 
 TEST(PlotFiles, ThePointsThatATableIsSentAreWritten) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    actions::TableChoice choice = bench.person.workshop().look().plot.table_choice();
+    actions::TableChoice choice = bench.person.app().look().plot.table_choice();
     choice.decoding.velocity = 12.0;
     choice.decoding.period = 0.05;
-    bench.person.workshop().plot().set_table(choice);
+    bench.person.app().plot().set_table(choice);
     bench.person.click("lower/tabs/table");
     bench.person.click("lower/plot_write_points");
     bench.settle();

@@ -18,7 +18,7 @@ struct PlotPerson {
         drop(folder / file.filename());
     }
     void drop(const std::filesystem::path& file) {
-        person.workshop().receive({file}); // as the window does it for what is dropped on it
+        person.app().receive({file}); // as the window does it for what is dropped on it
         settle();
     }
     /// Until everything is derived and looked at: the program of a plot is read when the plot is finished,
@@ -28,7 +28,7 @@ struct PlotPerson {
         person.wait_idle();
         person.frames(3);
     }
-    [[nodiscard]] actions::PlotBench& plot() { return person.workshop().plot(); }
+    [[nodiscard]] actions::PlotWorkspace& plot() { return person.app().plot(); }
     [[nodiscard]] const plan::PlotResult& made() {
         result = plot().latest();
         return *result;

@@ -33,7 +33,7 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     EXPECT_TRUE(bench.person.sees("lower/read_out/X"));
     EXPECT_TRUE(bench.person.sees("lower/histogram"));
     bench.person.frames(2);
-    const actions::Workbench moving = bench.person.workshop().look();
+    const actions::FrameState moving = bench.person.app().look();
     EXPECT_EQ(table_text(moving), "simulated table: moving");
     ASSERT_TRUE(moving.table_tip());
     EXPECT_NE(*moving.table_tip(), Vec3::Zero());
@@ -46,13 +46,13 @@ TEST(PlotTable, PointsArePlayedWithTheirReadOutAndStoppedAtOnce) {
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.plot().table().playing(); }));
     const auto stopped = bench.plot().table().view();
     // The tool stays where the table is until the timeline goes elsewhere.
-    actions::Workbench after = bench.person.workshop().look();
+    actions::FrameState after = bench.person.app().look();
     EXPECT_EQ(table_text(after), "");
     EXPECT_EQ(after.table_tip(), stopped.status.position);
     bench.person.frames(2);
     bench.person.click("timeline/timeline/last");
     bench.person.frames(2);
-    EXPECT_FALSE(bench.person.workshop().look().table_tip());
+    EXPECT_FALSE(bench.person.app().look().table_tip());
     EXPECT_EQ(stopped.status.state, drivers::PlayState::emergency_stop);
     EXPECT_LT(stopped.status.points, stopped.total);
     EXPECT_THAT(stopped.status.sentence, HasSubstr("emergency stop"));
@@ -88,12 +88,12 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
         level.depth = 0.25 * level.pen;
         level.tool = level.pen == 1 ? 2 : 1;
     }
-    bench.person.workshop().edit("Levels",
-                                 [&](project::Project& draft) {
-                                     draft.plot.settings.levels = levels;
-                                     draft.plot.settings.machine = "router-xyz"; // a faster one
-                                 },
-                                 {});
+    bench.person.app().edit("Levels",
+                            [&](project::Project& draft) {
+                                draft.plot.settings.levels = levels;
+                                draft.plot.settings.machine = "router-xyz"; // a faster one
+                            },
+                            {});
     bench.settle();
     actions::TableChoice choice;
     choice.decoding.velocity = 45.0;
@@ -112,7 +112,7 @@ TEST(PlotTable, PlaysTheLevelsThatAreShownAndRestsAtToolChanges) {
     EXPECT_THAT(bench.plot().table().view().status.sentence, HasSubstr("put in tool 1"));
     EXPECT_EQ(table.records(), 0);
     bench.person.frames(2);
-    EXPECT_EQ(table_text(bench.person.workshop().look()), "table at " + table.port() + ": held");
+    EXPECT_EQ(table_text(bench.person.app().look()), "table at " + table.port() + ": held");
     EXPECT_EQ(bench.person.refusal("lower/plot_play_table"), "The table is held. Press Resume to continue.");
     // The tip of a button is not over the line that says which tool to put in.
     const widgets::Rect play = bench.person.place("lower/plot_play_table");
@@ -155,7 +155,7 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     choice.port = table.port();
     choice.record = {};
     choice.record.answer = "ok";
-    bench.person.workshop().plot().set_table(choice);
+    bench.person.app().plot().set_table(choice);
     bench.person.click("lower/tabs/table");
     bench.person.frames();
     EXPECT_TRUE(bench.person.sees("lower/begins"));
@@ -194,7 +194,7 @@ TEST(PlotTable, ATableIsLedFromWhereItStoppedWithoutAJump) {
     bench.person.click("lower/plot_play_table");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return table.records() > static_cast<std::int64_t>(first) + 100; }, 60.0));
-    bench.person.workshop().plot().table().stop();
+    bench.person.app().plot().table().stop();
     const auto went = table.positions();
     const double step = choice.decoding.velocity * choice.decoding.period;
     for (std::size_t n = first; n < first + 100; ++n) {

@@ -29,7 +29,7 @@
 namespace millwright::panels {
 namespace {
 
-using actions::Workbench;
+using actions::FrameState;
 using actions::Workspace;
 using test::Person;
 using testing::HasSubstr;
@@ -40,7 +40,7 @@ using test::PlotPerson;
 
 TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt");
-    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::plot);
     ASSERT_FALSE(bench.made().failure);
     for (const char* path : {"layers/levels",
                              "layers/level/depth_mm",
@@ -53,8 +53,8 @@ TEST(PlotWorkspace, OpensWhatIsDroppedAndShowsEveryPart) {
                              "timeline/timeline/play"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
-    EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
-    EXPECT_GT(bench.person.workshop().look().duration(), 60.0);
+    EXPECT_TRUE(bench.person.app().look().in_file()); // its program can be played
+    EXPECT_GT(bench.person.app().look().duration(), 60.0);
     bench.person.keep("plot");
 }
 
@@ -69,19 +69,19 @@ TEST(PlotWorkspace, TheTimeOfThePlannerIsThatOfTheTextThatIsWritten) {
         return plan::seconds_of_text(released, {}, machine, "p.ngc");
     };
     const double before = of_text();
-    EXPECT_NEAR(bench.person.workshop().look().duration(), before, 1e-6);
+    EXPECT_NEAR(bench.person.app().look().duration(), before, 1e-6);
     bench.person.fill_in("inspector/travel/link_mm", "3");
     bench.settle();
     EXPECT_TRUE(bench.plot().is_current(bench.made()));
     const double linked = of_text();
     EXPECT_LT(linked, 0.95 * before) << "fewer lifts";
-    EXPECT_NEAR(bench.person.workshop().look().duration(), linked, 1e-6);
+    EXPECT_NEAR(bench.person.app().look().duration(), linked, 1e-6);
     // The path with all its decimals takes another time than what is written of it.
     bench.person.fill_in("inspector/work/origin_x_mm", "30.123456");
     bench.settle();
     EXPECT_TRUE(bench.plot().is_current(bench.made()));
     EXPECT_GT(std::abs(of_text() - linked), 0.01);
-    EXPECT_NEAR(bench.person.workshop().look().duration(), of_text(), 1e-6);
+    EXPECT_NEAR(bench.person.app().look().duration(), of_text(), 1e-6);
 }
 
 TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
@@ -89,12 +89,12 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
     for (const char* path : {"layers/position/gone", "layers/position/left", "layers/position"}) {
         EXPECT_TRUE(bench.person.sees(path)) << path;
     }
-    const Workbench begun = bench.person.workshop().look();
+    const FrameState begun = bench.person.app().look();
     ASSERT_GT(begun.duration(), 0.0);
     EXPECT_DOUBLE_EQ(begun.time(), 0.0);
     bench.person.click("timeline/timeline/last");
     bench.person.frames(3);
-    const Workbench done = bench.person.workshop().look();
+    const FrameState done = bench.person.app().look();
     EXPECT_NEAR(done.time(), begun.duration(), 1e-6);
     const motion::Trajectory& way = *done.opened->motion->trajectory;
     EXPECT_NEAR(way.part_length_at(done.time()), way.part_length(), 1e-6);
@@ -105,7 +105,7 @@ TEST(PlotWorkspace, PlayingShowsWhereTheToolIsHowFarItHasGoneAndWhatRemains) {
 TEST(PlotWorkspace, TheWayThatIsToldIsTheOneThatIsGone) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     const auto differ = [&] {
-        const motion::Trajectory& gone = *bench.person.workshop().look().opened->motion->trajectory;
+        const motion::Trajectory& gone = *bench.person.app().look().opened->motion->trajectory;
         const plot::PathLengths told = bench.made().lengths;
         return std::abs(told.cut + told.travel - gone.part_length());
     };
@@ -132,13 +132,13 @@ TEST(PlotWorkspace, LinkingAndShorteningAreSeenAtOnceInLiftsAndTime) {
 TEST(PlotWorkspace, ThePlannersTimeIsToldWithLinksAndWithout) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt");
     EXPECT_TRUE(bench.made().cut_as_drawn);
-    const double alone = bench.person.workshop().look().duration();
+    const double alone = bench.person.app().look().duration();
     bench.person.fill_in("inspector/travel/link_mm", "3");
     bench.settle();
     EXPECT_FALSE(bench.made().cut_as_drawn);
     ASSERT_TRUE(bench.made().drawn_seconds);
     EXPECT_NEAR(*bench.made().drawn_seconds, alone, 3e-3 * alone); // that of the file is rounded and read
-    EXPECT_LT(bench.person.workshop().look().duration(), alone);
+    EXPECT_LT(bench.person.app().look().duration(), alone);
     bench.person.keep("plot-planner");
 }
 
@@ -276,11 +276,11 @@ TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {
     bench.settle();
     bench.person.fill_in("layers/level/depth_mm", "2.5");
     bench.settle();
-    EXPECT_EQ(bench.person.workshop().look().undo_title, "Change Depth");
+    EXPECT_EQ(bench.person.app().look().undo_title, "Change Depth");
     const project::PlotInput set = bench.person.project().plot;
-    EXPECT_TRUE(bench.person.workshop().look().changed());
-    bench.person.workshop().save(bench.folder / "sign.json");
-    EXPECT_FALSE(bench.person.workshop().look().changed());
+    EXPECT_TRUE(bench.person.app().look().changed());
+    bench.person.app().save(bench.folder / "sign.json");
+    EXPECT_FALSE(bench.person.app().look().changed());
 
     bench.person.press_key(render::Key::z, true);
     bench.settle();
@@ -289,7 +289,7 @@ TEST(PlotWorkspace, EveryChangeIsAStepThatIsUndoneAndSaved) {
     bench.person.press_key(render::Key::z, true);
     bench.settle();
     EXPECT_DOUBLE_EQ(bench.made().as_planned.seconds, before);
-    EXPECT_EQ(bench.person.workshop().look().undo_title, "Open hatched-sign.plt");
+    EXPECT_EQ(bench.person.app().look().undo_title, "Open hatched-sign.plt");
     bench.person.press_key(render::Key::z, true);
     bench.settle();
     EXPECT_TRUE(bench.plot().file().empty());
@@ -316,7 +316,7 @@ TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
         return bench.person.picture().at(static_cast<int>(row.x) + 3, static_cast<int>(row.centre().y));
     };
     const auto chosen = shade();
-    bench.person.workshop().edit(
+    bench.person.app().edit(
         "Slower", [](project::Project& draft) { draft.plot.settings.levels.front().cutting = 5.0; }, {});
     bench.settle();
     EXPECT_NE(shade(), chosen) << "these are not its values any more";
@@ -327,11 +327,11 @@ TEST(PlotWorkspace, ToTheMachineWritesTheProgramAndReplacesNoFile) {
     std::ofstream(bench.folder / "everyday.ngc") << "mine\n";
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
-    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::machine);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::machine);
     EXPECT_TRUE(fs::exists(bench.folder / "everyday-2.ngc"));
     EXPECT_EQ(fs::file_size(bench.folder / "everyday.ngc"), 5U);
-    EXPECT_EQ(bench.person.workshop().look().opened->file.filename(), "everyday-2.ngc");
-    EXPECT_TRUE(bench.person.workshop().look().opened->findings.empty());
+    EXPECT_EQ(bench.person.app().look().opened->file.filename(), "everyday-2.ngc");
+    EXPECT_TRUE(bench.person.app().look().opened->findings.empty());
 }
 
 TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
@@ -359,32 +359,31 @@ TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
     bench.drop(fs::absolute("assets/samples/plot/ticks.plt"));
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
-    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.person.folder() / "programs/ticks.ngc");
+    EXPECT_EQ(bench.person.app().look().opened->file, bench.person.folder() / "programs/ticks.ngc");
     EXPECT_EQ(programs_there(), before);
 }
 
 TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    bench.person.workshop().session().workspace = Workspace::machine;
+    bench.person.app().view_state().workspace = Workspace::machine;
     bench.person.open("assets/projects/dome.json");
     bench.settle();
-    bench.person.workshop().run("machine.run");
-    ASSERT_TRUE(
-        bench.person.live_until([&] { return bench.person.workshop().look().job.report.has_value(); }));
-    bench.person.workshop().session().workspace = Workspace::plot;
+    bench.person.app().run("machine.run");
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.person.app().look().job.report.has_value(); }));
+    bench.person.app().view_state().workspace = Workspace::plot;
     bench.person.frames(3);
-    ASSERT_TRUE(bench.person.workshop().look().job.running);
+    ASSERT_TRUE(bench.person.app().look().job.running);
     EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job is running"));
     bench.person.keep("plot-beside-a-job");
-    bench.person.workshop().run("machine.stop");
-    EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
+    bench.person.app().run("machine.stop");
+    EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().job.running; }));
 }
 
 /// Chooses a table at `port` that takes `pattern` and answers by `ok`; nothing is connected yet.
 void choose_table(Person& person,
                   const std::string& port,
                   const std::string& pattern = drivers::RecordFormat().pattern) {
-    auto& choice = person.workshop().session().hand.choice;
+    auto& choice = person.app().view_state().manual.choice;
     choice.driver = "records";
     choice.address = port;
     choice.record.emplace();
@@ -399,14 +398,14 @@ jobs::JobOutcome outcome_of(Person& person, const std::string& button) {
     test::press_run(person, button);
     EXPECT_TRUE(person.live_until(
         [&] {
-            const actions::JobView job = person.workshop().look().job;
+            const actions::JobView job = person.app().look().job;
             if (job.running && job.report && job.report->driver.state == drivers::DriverState::holding) {
-                person.workshop().run("machine.resume");
+                person.app().run("machine.resume");
             }
             return !job.running && (job.outcome || job.failure);
         },
         60.0));
-    const actions::JobView job = person.workshop().look().job;
+    const actions::JobView job = person.app().look().job;
     EXPECT_FALSE(job.failure) << to_text(*job.failure);
     return job.outcome.value_or(jobs::JobOutcome());
 }
@@ -427,8 +426,8 @@ TEST(PlotWorkspace, ProgramsOfPlotsAndPathFilesAreSentByRecords) {
     bench.settle();
     choose_table(bench.person, table.port());
     test::connect(bench.person);
-    const auto start = bench.person.workshop().look().controller.status.position;
-    const auto plot = bench.person.workshop().look().opened->motion->program;
+    const auto start = bench.person.app().look().connection.status.position;
+    const auto plot = bench.person.app().look().opened->motion->program;
     const jobs::JobOutcome sent = outcome_of(bench.person, "inspector/job/machine_run");
     EXPECT_EQ(sent.end, jobs::JobEnd::done) << sent.sentence;
     const std::int64_t of_plot = moves_of(*plot, start);
@@ -461,9 +460,8 @@ TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) 
     choose_table(bench.person, table.port(), "t {X} {Y} {a} {s}"); // Z is missing
     test::connect(bench.person);
     test::press_run(bench.person);
-    ASSERT_TRUE(
-        bench.person.live_until([&] { return bench.person.workshop().look().job.failure.has_value(); }));
-    const std::string why = bench.person.workshop().look().job.failure->message;
+    ASSERT_TRUE(bench.person.live_until([&] { return bench.person.app().look().job.failure.has_value(); }));
+    const std::string why = bench.person.app().look().job.failure->message;
     EXPECT_THAT(why, HasSubstr("Z"));
     EXPECT_EQ(table.records() + table.bad_lines(), 0);
     const auto jobs = jobs::read_job_folder(bench.person.folder() / "jobs");
@@ -473,7 +471,7 @@ TEST(PlotWorkspace, AJobThatTheTableCannotBeToldEndsInItsLogAndIsNotAskedAbout) 
     }
     Person next({1280, 800}, {}, bench.person.folder() / "jobs");
     next.wait_idle();
-    EXPECT_FALSE(next.workshop().look().asks());
+    EXPECT_FALSE(next.app().look().asks());
 }
 
 TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
@@ -491,7 +489,7 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     bench.settle();
     choose_table(bench.person, "");
     bench.person.choose("inspector/connection/driver", "stream");
-    bench.person.workshop().session().hand.choice.address = port;
+    bench.person.app().view_state().manual.choice.address = port;
     test::connect(bench.person);
     test::press_run(bench.person);
     const auto truth = [&] {
@@ -499,29 +497,29 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     };
     ASSERT_TRUE(bench.person.live_until([&] { return truth().samples > 50; })) << truth().first_fault;
     EXPECT_EQ(truth().bad_lines, 0) << truth().first_fault;
-    bench.person.workshop().run("machine.stop");
-    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.workshop().look().job.running; }));
+    bench.person.app().run("machine.stop");
+    ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().job.running; }));
 }
 
 TEST(PlotWorkspace, ThePlotPlaysAgainWhenOneComesBackFromTheMachine) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    const double duration = bench.person.workshop().look().duration();
+    const double duration = bench.person.app().look().duration();
     ASSERT_GT(duration, 0.0);
     bench.person.click("inspector/plot_to_machine");
     bench.settle();
-    ASSERT_EQ(bench.person.workshop().look().opened->file, bench.folder / "everyday.ngc");
-    bench.person.workshop().session().workspace = Workspace::plot;
+    ASSERT_EQ(bench.person.app().look().opened->file, bench.folder / "everyday.ngc");
+    bench.person.app().view_state().workspace = Workspace::plot;
     bench.settle();
     EXPECT_TRUE(bench.person.sees("layers/position/gone"));
-    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.made().program);
-    EXPECT_NEAR(bench.person.workshop().look().duration(), duration, 1e-9);
+    EXPECT_EQ(bench.person.app().look().opened->file, bench.made().program);
+    EXPECT_NEAR(bench.person.app().look().duration(), duration, 1e-9);
     bench.person.click("timeline/timeline/last");
     bench.person.frames(3);
-    EXPECT_NEAR(bench.person.workshop().look().time(), duration, 1e-6);
+    EXPECT_NEAR(bench.person.app().look().time(), duration, 1e-6);
     bench.person.keep("plot-back");
-    bench.person.workshop().session().workspace = Workspace::machine; // has what was sent there
+    bench.person.app().view_state().workspace = Workspace::machine; // has what was sent there
     bench.settle();
-    EXPECT_EQ(bench.person.workshop().look().opened->file, bench.folder / "everyday.ngc");
+    EXPECT_EQ(bench.person.app().look().opened->file, bench.folder / "everyday.ngc");
 }
 
 TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
@@ -538,7 +536,7 @@ TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
     const auto red = [](int r, int g, int b) { return r > g + 60 && r > b + 60; };
     bench.person.keep("plot-path-file");
     const int drawn = bench.pixels_like(red);
-    bench.person.workshop().session().layers_now().toolpath = false;
+    bench.person.app().view_state().layers_now().toolpath = false;
     bench.person.frames(3);
     EXPECT_GT(drawn, bench.pixels_like(red) + 1000);
     EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
@@ -551,14 +549,14 @@ TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     fs::copy_file("assets/samples/gcode/thesis-3d.ngc", bench.folder / "thesis-3d.ngc");
     bench.drop(bench.folder / "thesis-3d.ngc");
-    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::plot);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::plot);
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
     EXPECT_NEAR(bench.made().lengths.cut, 438.2848, 1e-2);
     EXPECT_NEAR(bench.made().lengths.travel, 80.2905, 1e-3);
     EXPECT_EQ(bench.made().path->front().at, Vec3(10, 10, 10));
     EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));
     EXPECT_THAT(bench.person.refusal("inspector/plot_to_machine"), testing::IsEmpty());
-    EXPECT_TRUE(bench.person.workshop().look().in_file()); // its program can be played
+    EXPECT_TRUE(bench.person.app().look().in_file()); // its program can be played
     bench.person.keep("plot-gcode");
     bench.person.choose("layers/sample", "thesis-simple.ngc");
     bench.settle();
@@ -569,7 +567,7 @@ TEST(PlotWorkspace, GCodeThatIsDroppedHereIsCutAsItStands) {
     EXPECT_THAT(to_text(*bench.made().failure), HasSubstr("turn.ngc:3:7"));
     bench.person.press_key(render::Key::f4); // the Toolpath workspace
     bench.drop(bench.folder / "thesis-3d.ngc");
-    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::program);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::program);
 }
 
 TEST(PlotWorkspace, SaysWhatIsWrongWithAFileAndKeepsWorking) {

@@ -3,7 +3,7 @@
 #include "core/base/files.h"
 #include "core/base/units.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace millwright::panels {
 namespace {
 
-using actions::ProcessorBench;
+using actions::ProcessorWorkspace;
 using test::Person;
 
 constexpr const char* record = "docs/user/processor-session.txt";
@@ -26,15 +26,15 @@ std::string left(const cordic::IterationTrace& trace) {
                                 : fmt::format("{:.2e} deg", to_degrees(trace.points.back().angle_error));
 }
 
-std::string shown_state(const ProcessorBench& bench) {
-    const cordic::Debugger& debugger = bench.debugger();
+std::string shown_state(const ProcessorWorkspace& workspace) {
+    const cordic::Debugger& debugger = workspace.debugger();
     const cordic::ProcessorState& state = debugger.state();
-    const auto row = bench.code_row();
+    const auto row = workspace.code_row();
     return fmt::format(
         "clock {} | line {} | {} | micro {:02x} {} | x {:.6g} y {:.6g} z {:.3g} | left {} | points {}",
         state.clocks.total,
         debugger.line(),
-        row < 0 ? "-" : bench.code()[static_cast<std::size_t>(row)].text,
+        row < 0 ? "-" : workspace.code()[static_cast<std::size_t>(row)].text,
         state.sequencer.address,
         to_text(state.pipeline.op),
         debugger.processor().number(state.path.x),
@@ -60,7 +60,7 @@ void act(Person& person, const std::string& line) {
         const float height = person.desktop().ui().px(19.0F);
         person.click_at({lines.x + 0.4F * lines.w, lines.y + (static_cast<float>(number) - 0.5F) * height});
     } else if (verb == "wait") {
-        EXPECT_TRUE(person.live_until([&] { return !person.workshop().look().processor.running(); })) << line;
+        EXPECT_TRUE(person.live_until([&] { return !person.app().look().processor.running(); })) << line;
     } else if (verb == "picture") {
         person.hover({5.0F, 990.0F});
         person.keep(path);
@@ -82,7 +82,7 @@ TEST(ProcessorSession, GoesAsItWasRecorded) {
             continue;
         }
         act(person, line);
-        played += line + "\n    " + shown_state(person.workshop().look().processor) + "\n";
+        played += line + "\n    " + shown_state(person.app().look().processor) + "\n";
     }
     EXPECT_EQ(played, read_file(record)) << "what was played now:\n" << played;
 }

@@ -1,7 +1,7 @@
 // The Processor workspace with real mouse and keys in real OpenGL: stepping the thesis's arc.
 #include "core/base/numbers.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/window.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace millwright::panels {
 namespace {
 
-using actions::ProcessorBench;
+using actions::ProcessorWorkspace;
 using actions::Workspace;
 using test::Person;
 
@@ -25,7 +25,7 @@ struct ProcessorWorkspacePerson {
         person.press_key(render::Key::f7);
         person.frames(3);
     }
-    [[nodiscard]] const ProcessorBench& processor() { return person.workshop().look().processor; }
+    [[nodiscard]] const ProcessorWorkspace& processor() { return person.app().look().processor; }
     [[nodiscard]] const cordic::ProcessorState& state() { return processor().debugger().state(); }
 
     Person person;
@@ -33,7 +33,7 @@ struct ProcessorWorkspacePerson {
 
 TEST(ProcessorWorkspace, OpensByItsKeyWithTheThesissArcAndShowsEveryPart) {
     ProcessorWorkspacePerson bench;
-    EXPECT_EQ(bench.person.workshop().session().workspace, Workspace::processor);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::processor);
     EXPECT_EQ(bench.processor().name(), "thesis-arc.ngc");
     for (const char* path : {"view/diagram",
                              "view/blocks/sequencer",
@@ -169,7 +169,7 @@ TEST(ProcessorWorkspace, HasTheDirectionAndTheSignOfZeroOfTheThesisAsSwitches) {
     person.click("inspector/format/thesis_direction");
     person.frames();
     EXPECT_EQ(bench.processor().report().position_error, ours);
-    person.workshop().run("processor.thesis_path"); // whose first line goes along X
+    person.app().run("processor.thesis_path"); // whose first line goes along X
     person.frames();
     EXPECT_LT(bench.processor().report().speed_error, 0.01);
     person.click("inspector/format/matlab_zero");
@@ -328,7 +328,7 @@ TEST(ProcessorWorkspace, ComputesOnePassInEachSystem) {
 
 TEST(ProcessorWorkspace, SaysWhyAProgramIsNotForIt) {
     ProcessorWorkspacePerson bench;
-    bench.person.workshop().run("processor.project"); // the dome needs five axes
+    bench.person.app().run("processor.project"); // the dome needs five axes
     bench.person.frames(3);
     ASSERT_TRUE(bench.processor().failure().has_value());
     EXPECT_NE(bench.processor().failure()->message.find("no axis"), std::string::npos);
@@ -352,7 +352,7 @@ TEST(ProcessorWorkspace, CutsNoTextAtTheSmallestWindow) {
     }
     std::set<std::uint8_t> seen;
     for (int n = 0; n < 400 && bench.processor().debugger().line() < 6; ++n) {
-        person.workshop().run("processor.micro");
+        person.app().run("processor.micro");
         if (seen.insert(bench.state().sequencer.address).second) {
             look();
         }

@@ -5,7 +5,7 @@
 #include "core/cordic/assembler.h"
 #include "core/cordic/microprogram.h"
 #include "tests/ui/panels/person.h"
-#include "ui/actions/processor_bench.h"
+#include "ui/actions/processor_workspace.h"
 #include "ui/panels/window.h"
 
 #include <gmock/gmock.h>
@@ -36,8 +36,8 @@ protected:
         person_.press_key(Key::f7);
         person_.frames(3);
     }
-    [[nodiscard]] const actions::ProcessorBench& bench() { return person_.workshop().look().processor; }
-    [[nodiscard]] const cordic::ProcessorState& state() { return bench().debugger().state(); }
+    [[nodiscard]] const actions::ProcessorWorkspace& workspace() { return person_.app().look().processor; }
+    [[nodiscard]] const cordic::ProcessorState& state() { return workspace().debugger().state(); }
     [[nodiscard]] std::string text() { return person_.project().processor.assembler; }
     void tab(const std::string& name) {
         person_.click("lower/tabs/" + name);
@@ -52,7 +52,7 @@ protected:
     void run() {
         person_.click("timeline/speed/full");
         person_.click("timeline/processor_run");
-        EXPECT_TRUE(person_.live_until([&] { return !bench().running(); }));
+        EXPECT_TRUE(person_.live_until([&] { return !workspace().running(); }));
     }
 
     test::Person person_{{1280, 800}};
@@ -64,12 +64,13 @@ TEST_F(ProcessorTexts, AssemblerTextIsWrittenCheckedExecutedAndStepped) {
     person_.click("lower/text");
     person_.type(".format q12.20\nMOV Vmax, 10\nMOV Amaz, 100\n");
     person_.frames(2);
-    ASSERT_FALSE(bench().written().remarks().empty());
-    EXPECT_EQ(bench().written().remarks().front().place.line, 3);
-    EXPECT_EQ(bench().choice().source, ProcessorSource::thesis_arc) << "is executed when a person wants it";
+    ASSERT_FALSE(workspace().written().remarks().empty());
+    EXPECT_EQ(workspace().written().remarks().front().place.line, 3);
+    EXPECT_EQ(workspace().choice().source, ProcessorSource::thesis_arc)
+        << "is executed when a person wants it";
     person_.click("lower/processor_assembler");
     person_.frames(2);
-    ASSERT_TRUE(bench().failure());
+    ASSERT_TRUE(workspace().failure());
     EXPECT_FALSE(person_.refusal("timeline/processor_clock").empty());
     person_.keep("processor-assembler-fault");
     person_.click("lower/text");
@@ -79,11 +80,11 @@ TEST_F(ProcessorTexts, AssemblerTextIsWrittenCheckedExecutedAndStepped) {
     }
     person_.type("x, 100\nMOV XI, 8\nMOV YJ, 6\nG01\nHLT\n");
     person_.frames(2);
-    EXPECT_FALSE(bench().failure()) << text();
+    EXPECT_FALSE(workspace().failure()) << text();
     person_.click("timeline/processor_block");
-    EXPECT_EQ(bench().debugger().line(), 3);
-    EXPECT_EQ(bench().code()[2].text, "MOV XI, 8");
-    EXPECT_EQ(bench().code()[2].line, 4);
+    EXPECT_EQ(workspace().debugger().line(), 3);
+    EXPECT_EQ(workspace().code()[2].text, "MOV XI, 8");
+    EXPECT_EQ(workspace().code()[2].line, 4);
     run();
     EXPECT_EQ(state().stop, cordic::Stop::halted);
     EXPECT_EQ(state().clocks.cordic, 74);
@@ -95,43 +96,43 @@ TEST_F(ProcessorTexts, AssemblerTextIsWrittenCheckedExecutedAndStepped) {
     person_.click("lower/text");
     person_.press_key(Key::z, true); // word by word
     person_.frames(2);
-    EXPECT_EQ(bench().choice().source, ProcessorSource::assembler);
+    EXPECT_EQ(workspace().choice().source, ProcessorSource::assembler);
     EXPECT_THAT(text(), testing::Not(HasSubstr("HLT")));
 }
 
 TEST_F(ProcessorTexts, AFileOfAssemblerTextIsNoGCode) {
-    person_.workshop().open(file("own.asm", line_and_end));
+    person_.app().open(file("own.asm", line_and_end));
     person_.frames(2);
-    EXPECT_EQ(person_.workshop().session().workspace, actions::Workspace::processor);
-    EXPECT_FALSE(person_.workshop().look().changed()); // nothing to save, nothing to recover
-    EXPECT_EQ(bench().choice().source, ProcessorSource::assembler);
+    EXPECT_EQ(person_.app().view_state().workspace, actions::Workspace::processor);
+    EXPECT_FALSE(person_.app().look().changed()); // nothing to save, nothing to recover
+    EXPECT_EQ(workspace().choice().source, ProcessorSource::assembler);
     EXPECT_EQ(text(), line_and_end);
-    EXPECT_EQ(cordic::to_text(bench().image().format), "q12.20");
+    EXPECT_EQ(cordic::to_text(workspace().image().format), "q12.20");
     EXPECT_TRUE(person_.sees("inspector/format/says"));
     person_.click("code/tabs/program");
     const widgets::Rect lines = person_.place("code/program");
     person_.click_at({lines.x + 0.5F * lines.w, lines.y + 111.0F}); // the sixth line
-    ASSERT_EQ(bench().debugger().breakpoints().size(), 1U);
+    ASSERT_EQ(workspace().debugger().breakpoints().size(), 1U);
     run();
-    EXPECT_EQ(bench().halt(), cordic::Halt::breakpoint);
-    EXPECT_EQ(bench().debugger().line(), 6);
-    person_.workshop().run("edit.undo");
+    EXPECT_EQ(workspace().halt(), cordic::Halt::breakpoint);
+    EXPECT_EQ(workspace().debugger().line(), 6);
+    person_.app().run("edit.undo");
     person_.frames(2);
     EXPECT_EQ(text(), "");
-    ASSERT_TRUE(bench().failure());
-    EXPECT_THAT(bench().failure()->message, HasSubstr("no instruction"));
+    ASSERT_TRUE(workspace().failure());
+    EXPECT_THAT(workspace().failure()->message, HasSubstr("no instruction"));
 }
 
 TEST_F(ProcessorTexts, AnImageIsOpenedAsTextAndSavedWithTheSameBytes) {
     const auto image = cordic::to_bytes(cordic::assemble(line_and_end, "own.asm").image);
     const std::string bytes(image.begin(), image.end());
-    person_.workshop().open(file("own.bin", bytes));
+    person_.app().open(file("own.bin", bytes));
     person_.frames(2);
     EXPECT_THAT(text(), HasSubstr("MOV XI, 8"));
     const auto copy = person_.folder() / "copy.bin";
-    person_.workshop().save_image(copy);
+    person_.app().save_image(copy);
     EXPECT_EQ(read_file(copy), bytes);
-    EXPECT_THROW(person_.workshop().open(file("broken.bin", bytes.substr(0, 7))), Error);
+    EXPECT_THROW(person_.app().open(file("broken.bin", bytes.substr(0, 7))), Error);
     EXPECT_THAT(text(), HasSubstr("MOV XI, 8"));
     for (const char* button :
          {"lower/processor_open_assembler", "lower/processor_save_assembler", "lower/processor_save_image"}) {
@@ -145,11 +146,11 @@ TEST_F(ProcessorTexts, AnImageIsOpenedAsTextAndSavedWithTheSameBytes) {
 
 TEST_F(ProcessorTexts, TheProgramThatIsExecutedIsTakenOverAsText) {
     tab("assembler");
-    const auto code = bench().image().code;
+    const auto code = workspace().image().code;
     person_.click("lower/processor_take_over");
     person_.frames(2);
-    EXPECT_EQ(bench().choice().source, ProcessorSource::assembler);
-    EXPECT_EQ(bench().image().code, code);
+    EXPECT_EQ(workspace().choice().source, ProcessorSource::assembler);
+    EXPECT_EQ(workspace().image().code, code);
     EXPECT_THAT(text(), HasSubstr("G03"));
 }
 
@@ -158,8 +159,8 @@ TEST_F(ProcessorTexts, AMicroprogramOfOnesOwnIsWrittenAndExecuted) {
     EXPECT_FALSE(person_.refusal("lower/processor_own_microprogram").empty());
     person_.click("lower/processor_start_microprogram");
     person_.frames(2);
-    EXPECT_TRUE(bench().choice().own_microprogram);
-    EXPECT_FALSE(bench().failure());
+    EXPECT_TRUE(workspace().choice().own_microprogram);
+    EXPECT_FALSE(workspace().failure());
     run();
     const auto ours = state().clocks.total;
     // One clock more in every fetch.
@@ -167,9 +168,9 @@ TEST_F(ProcessorTexts, AMicroprogramOfOnesOwnIsWrittenAndExecuted) {
     const auto fetch = slower.find("        CONT                            | load_opcode");
     ASSERT_NE(fetch, std::string::npos);
     slower.insert(fetch, "        CONT\n");
-    person_.workshop().open(file("slower.micro", slower));
+    person_.app().open(file("slower.micro", slower));
     person_.frames(2);
-    ASSERT_FALSE(bench().failure());
+    ASSERT_FALSE(workspace().failure());
     run();
     EXPECT_EQ(state().stop, cordic::Stop::halted);
     EXPECT_EQ(state().clocks.total, ours + state().instructions);
@@ -177,12 +178,12 @@ TEST_F(ProcessorTexts, AMicroprogramOfOnesOwnIsWrittenAndExecuted) {
     person_.press_key(Key::home, true);
     person_.type("JUMP\n");
     person_.frames(2);
-    ASSERT_TRUE(bench().failure());
-    EXPECT_EQ(bench().written().micro_faults().front().place.line, 1);
+    ASSERT_TRUE(workspace().failure());
+    EXPECT_EQ(workspace().written().micro_faults().front().place.line, 1);
     person_.keep("processor-microprogram-fault");
     person_.click("lower/processor_own_microprogram"); // back to the processor's own
     person_.frames(2);
-    EXPECT_FALSE(bench().failure());
+    EXPECT_FALSE(workspace().failure());
     run();
     EXPECT_EQ(state().clocks.total, ours);
 }
@@ -201,7 +202,7 @@ TEST_F(ProcessorTexts, BothEditorsFindAndReplaceByTheKeysOfTheOthers) {
     person_.click("lower/find/replace_all");
     person_.frames(2);
     EXPECT_EQ(text(), "MOV XI, 6\nMOV YJ, 6\nG01\n");
-    person_.workshop().run("edit.undo");
+    person_.app().run("edit.undo");
     person_.frames(2);
     EXPECT_EQ(text(), "MOV XI, 8\nMOV YJ, 8\nG01\n");
 

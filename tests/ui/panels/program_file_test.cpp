@@ -38,15 +38,15 @@ std::filesystem::path program(Person& person, const std::string& text, const std
 }
 
 actions::FilePlace here(Person& person) {
-    return person.workshop().look().file_place().value();
+    return person.app().look().file_place().value();
 }
 
 TEST(ProgramFile, OpensBesideTheProjectAndShowsItsWorkspace) {
     Person person;
     const project::Project before = person.project();
     person.open(program(person, finishing(3000)));
-    const auto now = person.workshop().look();
-    EXPECT_EQ(now.session.workspace, Workspace::program);
+    const auto now = person.app().look();
+    EXPECT_EQ(now.view_state.workspace, Workspace::program);
     EXPECT_EQ(now.project, before);
     ASSERT_TRUE(now.opened && now.opened->execution && now.opened->motion);
     EXPECT_EQ(now.opened->text->lines.count(), 3006);
@@ -63,9 +63,9 @@ TEST(ProgramFile, ALineThatIsClickedMovesTheCursorAndTheTool) {
     person.click_at({lines.x + 0.7F * lines.w, lines.y + 0.5F * lines.h});
     const auto after = here(person);
     EXPECT_NE(after.line, before.line);
-    EXPECT_GT(person.workshop().look().time(), 0.0);
+    EXPECT_GT(person.app().look().time(), 0.0);
     // The tool stands where the line before has left it.
-    const auto& opened = *person.workshop().look().opened;
+    const auto& opened = *person.app().look().opened;
     const auto [first, end] = opened.path.points_of(after.step);
     ASSERT_LT(first, end);
     EXPECT_LT((after.moment.tip - opened.path.point(first - 1).position()).norm(), 1e-3);
@@ -74,7 +74,7 @@ TEST(ProgramFile, ALineThatIsClickedMovesTheCursorAndTheTool) {
 TEST(ProgramFile, ThePathThatIsClickedFindsItsLine) {
     Person person;
     person.open(program(person, "G21 G90\nG0 X-20 Y0\nG1 X20 F600\nM2\n"));
-    person.workshop().run("play.last");
+    person.app().run("play.last");
     person.frames(4);
     // Seen from above, the only feed move lies across the middle of the picture.
     person.desktop().window().view().viewport().look_from(render::StandardView::top);
@@ -101,7 +101,7 @@ TEST(ProgramFile, StepsByMoveAndByLine) {
     EXPECT_EQ(here(person).line, 5);
     person.press_key(render::Key::left, false, true);
     EXPECT_EQ(here(person).line, 4);
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_FLOAT_EQ(now.opened->execution->state_after(here(person).step).feed, 300.0F);
     person.press_key(render::Key::left, false, true);
     EXPECT_EQ(here(person).line, 3);
@@ -112,7 +112,7 @@ TEST(ProgramFile, PlaysThroughItsLines) {
     Person person;
     person.open(program(person, finishing(200)));
     person.press_key(render::Key::space);
-    ASSERT_TRUE(person.workshop().session().playback.playing);
+    ASSERT_TRUE(person.app().view_state().playback.playing);
     person.frames(60);
     const int line = here(person).line;
     EXPECT_GT(line, 3);
@@ -123,23 +123,23 @@ TEST(ProgramFile, PlaysThroughItsLines) {
 TEST(ProgramFile, IsScrubbedOnTheTimelineAndInThePlots) {
     Person person;
     person.open(program(person, finishing(300)));
-    ASSERT_TRUE(person.workshop().look().opened->motion);
-    const double whole = person.workshop().look().duration();
+    ASSERT_TRUE(person.app().look().opened->motion);
+    const double whole = person.app().look().duration();
     const widgets::Rect track = person.place("timeline/timeline/track");
     person.drag({track.x + 0.1F * track.w, track.centre().y}, {track.x + 0.6F * track.w, track.centre().y});
-    EXPECT_NEAR(person.workshop().look().time(), 0.6 * whole, 0.02 * whole);
+    EXPECT_NEAR(person.app().look().time(), 0.6 * whole, 0.02 * whole);
     const int line = here(person).line;
     EXPECT_GT(line, 5);
     for (const char* shown : {"feed", "axes"}) {
         person.click("lower/shown/" + std::string(shown));
         const widgets::Rect plot = person.place("lower/motion");
-        const double before = person.workshop().look().time();
+        const double before = person.app().look().time();
         person.click_at({plot.x + 0.25F * plot.w, plot.centre().y});
-        const double earlier = person.workshop().look().time();
+        const double earlier = person.app().look().time();
         EXPECT_LT(earlier, before) << shown;
         person.keep(std::string("program-plot-") + shown);
         person.click_at({plot.x + 0.8F * plot.w, plot.centre().y});
-        EXPECT_GT(person.workshop().look().time(), earlier) << shown;
+        EXPECT_GT(person.app().look().time(), earlier) << shown;
     }
     EXPECT_NE(here(person).line, line);
     EXPECT_TRUE(person.sees("inspector/modal/limit"));
@@ -152,7 +152,7 @@ TEST(ProgramFile, ShowsWhatIsInForceAtTheCursor) {
         person.fill_in("program/line", std::to_string(line));
         const auto place = here(person);
         EXPECT_EQ(place.line, line);
-        return person.workshop().look().opened->execution->state_after(place.step);
+        return person.app().look().opened->execution->state_after(place.step);
     };
     EXPECT_EQ(at(1).coordinate_system, 1);
     EXPECT_FALSE(at(1).incremental);
@@ -186,10 +186,10 @@ TEST(ProgramFile, FindsWordsForwardBackwardAndAround) {
 TEST(ProgramFile, ShowsItsErrorsAndGoesToThem) {
     Person person;
     person.open(program(person, "G21 G90 F600\nG1 X10\nG1 X1O Q\nG2 X20 Y0 I1\nG1 X0\nM2\n", "bad.ngc"));
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     ASSERT_EQ(now.opened->errors.size(), 2U);
     EXPECT_EQ(now.opened->errors.front().place.line, 3);
-    EXPECT_NE(now.session.log.back().find("bad.ngc:3"), std::string::npos);
+    EXPECT_NE(now.view_state.log.back().find("bad.ngc:3"), std::string::npos);
     EXPECT_FALSE(now.opened->motion);
     person.click("inspector/faults/errors/1");
     EXPECT_EQ(here(person).line, 4);
@@ -199,44 +199,44 @@ TEST(ProgramFile, ShowsItsErrorsAndGoesToThem) {
 TEST(ProgramFile, IsReadAgainForAnotherMachine) {
     Person person;
     person.open(program(person, "G21 G90 F600\nG1 X10 A30\nM2\n"));
-    ASSERT_FALSE(person.workshop().look().opened->faults.empty()); // the router has no A
-    person.workshop().session().file.reading.machine = "ac-table";
-    person.workshop().run("file.read_again");
+    ASSERT_FALSE(person.app().look().opened->faults.empty()); // the router has no A
+    person.app().view_state().file.reading.machine = "ac-table";
+    person.app().run("file.read_again");
     person.wait_idle();
-    EXPECT_TRUE(person.workshop().look().opened->faults.empty());
-    EXPECT_EQ(person.workshop().look().opened->machine->name(), "A-on-C table");
+    EXPECT_TRUE(person.app().look().opened->faults.empty());
+    EXPECT_EQ(person.app().look().opened->machine->name(), "A-on-C table");
 }
 
 TEST(ProgramFile, KeepsItsTimeApartFromTheProjects) {
     Person person;
     person.open("assets/projects/dome.json");
-    person.workshop().run("play.last");
+    person.app().run("play.last");
     person.frames(2);
-    const double project_time = person.workshop().look().time();
+    const double project_time = person.app().look().time();
     person.open(program(person, finishing(100)));
-    person.workshop().run("view.toolpath");
+    person.app().run("view.toolpath");
     person.frames(2);
-    EXPECT_DOUBLE_EQ(person.workshop().look().time(), project_time);
-    person.workshop().run("view.program");
+    EXPECT_DOUBLE_EQ(person.app().look().time(), project_time);
+    person.app().run("view.program");
     person.frames(2);
-    EXPECT_LT(person.workshop().look().time(), project_time);
-    person.workshop().run("file.close_program");
+    EXPECT_LT(person.app().look().time(), project_time);
+    person.app().run("file.close_program");
     person.frames(2);
-    EXPECT_FALSE(person.workshop().look().in_file());
-    EXPECT_DOUBLE_EQ(person.workshop().look().time(), project_time);
+    EXPECT_FALSE(person.app().look().in_file());
+    EXPECT_DOUBLE_EQ(person.app().look().time(), project_time);
 }
 
 TEST(ProgramFile, CanBeCancelledWhileItIsRead) {
     Person person;
     const auto file =
         program(person, "G21 G90 F600\no100 repeat [3000000]\nG1 X0 Y1\nG1 X9\no100 endrepeat\nM2\n");
-    person.workshop().open(file);
-    while (person.workshop().look().opened->path.empty()) {
+    person.app().open(file);
+    while (person.app().look().opened->path.empty()) {
         person.frames(1);
     }
-    person.workshop().run("work.cancel");
+    person.app().run("work.cancel");
     person.wait_idle();
-    const auto opened = person.workshop().look().opened;
+    const auto opened = person.app().look().opened;
     EXPECT_TRUE(opened->cancelled);
     EXPECT_LT(opened->path.point_count(), 6'000'000);
     EXPECT_TRUE(person.sees("program/listing"));
@@ -246,26 +246,25 @@ TEST(ProgramFile, AFileThatIsNotThereLeavesEverythingAsItWas) {
     Person person;
     actions::ActionQueue ask;
     ask.open_file(person.folder() / "missing.ngc");
-    person.workshop().perform(ask);
-    EXPECT_FALSE(person.workshop().look().opened);
-    EXPECT_NE(person.workshop().session().log.back().find("missing.ngc"), std::string::npos);
+    person.app().perform(ask);
+    EXPECT_FALSE(person.app().look().opened);
+    EXPECT_NE(person.app().view_state().log.back().find("missing.ngc"), std::string::npos);
 }
 
 TEST(ProgramFile, AnEmptyFileIsSaidToBeEmpty) {
     Person person;
     person.open(program(person, "", "empty.ngc"));
     person.frames(3);
-    EXPECT_FALSE(person.workshop().look().file_place().has_value() &&
-                 person.workshop().look().duration() > 0.0);
+    EXPECT_FALSE(person.app().look().file_place().has_value() && person.app().look().duration() > 0.0);
     person.press_key(render::Key::space);
-    EXPECT_FALSE(person.workshop().session().playback.playing);
+    EXPECT_FALSE(person.app().view_state().playback.playing);
 }
 
 TEST(ProgramFile, LooksRightOnSmallAndLargeScreens) {
     for (const render::PixelSize size : {render::PixelSize{1280, 720}, render::PixelSize{2560, 1440}}) {
         Person person(size);
         person.open(program(person, finishing(3000)));
-        person.workshop().session().playback.time = 40.0;
+        person.app().view_state().playback.time = 40.0;
         person.fill_in("program/find", "Y12.000");
         person.frames(3);
         std::string cut;

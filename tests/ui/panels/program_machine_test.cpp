@@ -27,21 +27,21 @@ constexpr const char* five_axes = "G21 G90 G94\n"
 void open_for(Person& person, const std::string& machine, const std::string& text) {
     const auto file = person.folder() / "part.ngc";
     write_file(file, text);
-    person.workshop().session().file.reading.machine = machine;
+    person.app().view_state().file.reading.machine = machine;
     person.open(file);
-    ASSERT_TRUE(person.workshop().look().opened->errors.empty());
+    ASSERT_TRUE(person.app().look().opened->errors.empty());
 }
 
 /// To the beginning of `line` (from 1).
 void stand_at(Person& person, int line) {
-    const auto& opened = *person.workshop().look().opened;
-    person.workshop().session().playback.time =
+    const auto& opened = *person.app().look().opened;
+    person.app().view_state().playback.time =
         actions::time_of(opened, opened.execution->step_at_or_after(line));
     person.frames(3);
 }
 
 std::vector<double> axes(Person& person) {
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     const auto moment = now.moment();
     std::vector<double> values;
     for (int n = 0; moment && n < moment->axes.size(); ++n) {
@@ -64,7 +64,7 @@ TEST(ProgramOnItsMachine, ShowsEveryAxisWhereTheCursorIs) {
     open_for(person, "ac-table", five_axes);
     stand_at(person, 4);
     expect_axes(person, {10.0, 5.0, 50.0, -20.0, 30.0}, 1e-6);
-    person.workshop().session().playback.time = person.workshop().look().duration();
+    person.app().view_state().playback.time = person.app().look().duration();
     person.frames(3);
     expect_axes(person, {30.0, 5.0, 60.0, -40.0, -60.0}, 1e-6);
     for (const char* axis : {"X", "Y", "Z", "A", "C"}) {
@@ -75,11 +75,11 @@ TEST(ProgramOnItsMachine, ShowsEveryAxisWhereTheCursorIs) {
 TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     Person person;
     open_for(person, "ac-table", five_axes);
-    auto& layers = person.workshop().session().layers_now();
+    auto& layers = person.app().view_state().layers_now();
     layers = {};
     layers.surface = layers.floor = layers.origin = false;
     layers.machine = true;
-    fit_program(person.workshop().session());
+    fit_program(person.app().view_state());
     stand_at(person, 3);
     const render::Picture before = person.picture_of("view/iso");
     person.keep("program-machine");
@@ -89,7 +89,7 @@ TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     stand_at(person, 3);
     EXPECT_EQ(person.picture_of("view/iso"), before);
 
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(4);
     EXPECT_TRUE(person.sees("hand/position/axes/C"));
     person.keep("program-machine-workspace");
@@ -103,7 +103,7 @@ TEST(ProgramOnItsMachine, KnowsTheAxesOfLongProgramsWithoutRotaryAxes) {
         fmt::format_to(std::back_inserter(text), "X{:.3f} Y{:.2f}\n", 0.1 * (n % 1000), 0.01 * (n / 1000));
     }
     open_for(person, "router-xyz", text + "M2\n");
-    ASSERT_FALSE(person.workshop().look().opened->motion);
+    ASSERT_FALSE(person.app().look().opened->motion);
     constexpr int line = 123'457; // stands at the end of the line before, which is move number line - 3
     stand_at(person, line);
     const int n = line - 3;
@@ -116,21 +116,21 @@ TEST(ProgramOnItsMachine, KnowsTheAxesOfLongProgramsWithoutRotaryAxes) {
 TEST(ProgramOnItsMachine, ShowsTheConnectedMachineInTheMachineWorkspace) {
     Person person;
     open_for(person, "ac-table", five_axes);
-    person.workshop().run("view.machine");
+    person.app().run("view.machine");
     person.frames(2);
-    person.workshop().run("machine.connect");
-    ASSERT_TRUE(person.live_until([&] { return person.workshop().look().controller.connected(); }));
-    person.workshop().controller().tell(
+    person.app().run("machine.connect");
+    ASSERT_TRUE(person.live_until([&] { return person.app().look().connection.connected(); }));
+    person.app().connection().tell(
         [](drivers::Driver& driver) { (void)driver.command("G21 G90 G0 X12 Z34 A-7"); });
     ASSERT_TRUE(person.live_until([&] {
         const auto found = axes(person);
         return found.size() == 5 && std::abs(found[3] + 7.0) < 1e-6 && std::abs(found[2] - 34.0) < 1e-6;
     }));
     expect_axes(person, {12.0, 0.0, 34.0, -7.0, 0.0}, 1e-6);
-    EXPECT_TRUE(person.workshop().look().at_machine());
+    EXPECT_TRUE(person.app().look().at_machine());
     person.keep("machine-connected-file");
-    person.workshop().run("view.program"); // there the cursor is shown
-    person.workshop().session().playback.time = 0.0;
+    person.app().run("view.program"); // there the cursor is shown
+    person.app().view_state().playback.time = 0.0;
     person.frames(3);
     expect_axes(person, {0.0, 0.0, 0.0, 0.0, 0.0}, 1e-6);
 }

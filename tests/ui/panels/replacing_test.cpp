@@ -28,7 +28,7 @@ fs::path opened_dome(Person& person) {
 }
 
 void set_nv(Person& person, int nv) {
-    person.workshop().edit("Change the grid", [&](project::Project& p) { p.grid.nv = nv; }, {});
+    person.app().edit("Change the grid", [&](project::Project& p) { p.grid.nv = nv; }, {});
     person.frames();
 }
 
@@ -49,17 +49,17 @@ TEST(ChangedOnDisk, AProjectIsNotOverwrittenWithoutAQuestion) {
     person.keep("changed-on-disk");
     EXPECT_EQ(project::read_project(file).grid.nu, 9);
     person.press_key(Key::escape);
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_EQ(project::read_project(file).grid.nu, 9);
-    EXPECT_TRUE(person.workshop().look().changed());
+    EXPECT_TRUE(person.app().look().changed());
     person.press_key(Key::s, true);
     person.click("dialogs/replace/replace_overwrite");
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
     EXPECT_EQ(project::read_project(file).grid.nu, 20);
-    EXPECT_FALSE(person.workshop().look().changed());
+    EXPECT_FALSE(person.app().look().changed());
     set_nv(person, 13);
     person.press_key(Key::s, true); // its own file again
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_EQ(project::read_project(file).grid.nv, 13);
 }
 
@@ -72,7 +72,7 @@ TEST(ChangedOnDisk, IsReloadedAndUndoneAgain) {
     person.click("dialogs/replace/replace_reload");
     EXPECT_EQ(person.project().grid.nu, 9);
     EXPECT_EQ(person.project().grid.nv, 20);
-    EXPECT_FALSE(person.workshop().look().changed());
+    EXPECT_FALSE(person.app().look().changed());
     person.press_key(Key::z, true);
     EXPECT_EQ(person.project().grid.nv, 12);
 }
@@ -95,19 +95,19 @@ TEST(ChangedOnDisk, HoldsBackTheLeavingUntilItIsAnswered) {
     const fs::path file = opened_dome(person);
     set_nv(person, 12);
     write_nu_elsewhere(file, 9);
-    person.workshop().run("file.quit");
+    person.app().run("file.quit");
     person.frames();
     person.click("dialogs/unsaved/unsaved_save");
-    EXPECT_FALSE(person.workshop().session().quit);
+    EXPECT_FALSE(person.app().view_state().quit);
     ASSERT_TRUE(person.sees("dialogs/replace/replace_overwrite"));
     person.press_key(Key::escape);
-    EXPECT_FALSE(person.workshop().look().asks());
-    person.workshop().run("file.quit");
+    EXPECT_FALSE(person.app().look().asks());
+    person.app().run("file.quit");
     person.frames();
     person.click("dialogs/unsaved/unsaved_save");
     person.frames();
     person.click("dialogs/replace/replace_overwrite");
-    EXPECT_TRUE(person.workshop().session().quit);
+    EXPECT_TRUE(person.app().view_state().quit);
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
 }
 
@@ -119,7 +119,7 @@ TEST(ChangedOnDisk, ByAnotherWindow) {
     set_nv(first, 12);
     set_nv(second, 13);
     first.press_key(Key::s, true);
-    EXPECT_FALSE(first.workshop().look().asks());
+    EXPECT_FALSE(first.app().look().asks());
     second.press_key(Key::s, true);
     EXPECT_TRUE(second.sees("dialogs/replace/replace_overwrite"));
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
@@ -131,7 +131,7 @@ TEST(ChangedOnDisk, AFileThatIsGoneIsWrittenAgain) {
     set_nv(person, 12);
     fs::remove(file);
     person.press_key(Key::s, true);
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
 }
 
@@ -147,12 +147,12 @@ TEST(WrittenProgram, AsksForItsFileTheFirstTime) {
     const fs::path own = person.folder() / "own.ngc";
     person.fill_in("dialogs/files/name", own.string());
     ASSERT_TRUE(fs::exists(own));
-    EXPECT_EQ(person.workshop().session().log.back(), own.string() + ": G-code written.");
+    EXPECT_EQ(person.app().view_state().log.back(), own.string() + ": G-code written.");
     const std::string first = read_file(own);
     set_nv(person, 12);
     person.wait_idle();
     person.press_key(Key::e, true);
-    EXPECT_FALSE(person.workshop().look().asks());
+    EXPECT_FALSE(person.app().look().asks());
     EXPECT_NE(read_file(own), first) << "the same file, without a question";
 }
 
@@ -209,8 +209,8 @@ std::vector<Step> all_steps() {
             {"save as", [](Person& p) { p.press_key(Key::s, true, true); }},
             {"save", [](Person& p) { p.press_key(Key::s, true); }},
             {"write", [](Person& p) { p.press_key(Key::e, true); }},
-            {"close", [](Person& p) { p.workshop().run("file.quit"); }},
-            {"drop", [](Person& p) { p.workshop().receive({p.folder() / "other.json"}); }},
+            {"close", [](Person& p) { p.app().run("file.quit"); }},
+            {"drop", [](Person& p) { p.app().receive({p.folder() / "other.json"}); }},
             {"search", [](Person& p) { p.press_key(Key::k, true); }},
             {"help", [](Person& p) { p.press_key(Key::f1); }}};
 }
@@ -230,16 +230,16 @@ TEST(OrderOfQuestions, WhateverIsAskedIsSeenAloneAndEscapeLeavesEverything) {
                 step->take(person);
                 person.frames(3);
                 const auto seen = seen_dialogs(person);
-                ASSERT_EQ(seen.size(), person.workshop().look().asks() ? 1U : 0U)
+                ASSERT_EQ(seen.size(), person.app().look().asks() ? 1U : 0U)
                     << order << ", after " << step->name << (seen.empty() ? "" : ": " + seen.front());
                 ASSERT_FALSE(person.sees("search") && !seen.empty()) << order;
             }
-            for (int n = 0; n < 8 && (person.workshop().look().asks() || person.sees("search")); ++n) {
+            for (int n = 0; n < 8 && (person.app().look().asks() || person.sees("search")); ++n) {
                 person.press_key(Key::escape);
                 person.frames(2);
             }
-            ASSERT_FALSE(person.workshop().look().asks()) << order;
-            ASSERT_FALSE(person.workshop().session().quit) << order;
+            ASSERT_FALSE(person.app().look().asks()) << order;
+            ASSERT_FALSE(person.app().view_state().quit) << order;
             ASSERT_EQ(person.project().grid.nv, 12) << order;
             ASSERT_EQ(project::read_project(file).grid.nu, 9) << order;
         }
@@ -257,27 +257,27 @@ TEST(OrderOfQuestions, AnotherProjectCanBeOpenedWithUnsavedChanges) {
     person.frames();
     ASSERT_TRUE(person.sees("dialogs/unsaved/unsaved_discard"));
     person.click("dialogs/unsaved/unsaved_discard");
-    EXPECT_EQ(person.workshop().look().document.file.filename(), "other.json");
+    EXPECT_EQ(person.app().look().document.file.filename(), "other.json");
 }
 
 TEST(OrderOfQuestions, AJobThatRunsIsAskedAboutOverTheFileDialog) {
     Person person;
     (void)opened_dome(person);
-    person.workshop().session().machine_speed = 1.0;
-    person.workshop().session().workspace = actions::Workspace::machine;
-    person.workshop().run("machine.run");
+    person.app().view_state().machine_speed = 1.0;
+    person.app().view_state().workspace = actions::Workspace::machine;
+    person.app().run("machine.run");
     person.frames(3);
-    ASSERT_TRUE(person.workshop().look().job.running);
+    ASSERT_TRUE(person.app().look().job.running);
     person.press_key(Key::o, true);
-    person.workshop().run("file.quit"); // the window's own button
+    person.app().run("file.quit"); // the window's own button
     person.frames();
     EXPECT_TRUE(person.sees("dialogs/running_job/running_job_stop"));
     person.press_key(Key::escape);
     EXPECT_TRUE(person.sees("dialogs/files/cancel"));
     person.press_key(Key::escape);
-    EXPECT_FALSE(person.workshop().look().asks());
-    person.workshop().jobs().stop();
-    person.workshop().wait_idle();
+    EXPECT_FALSE(person.app().look().asks());
+    person.app().jobs().stop();
+    person.app().wait_idle();
 }
 
 } // namespace

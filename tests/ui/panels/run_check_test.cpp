@@ -20,7 +20,7 @@ TEST(RunOfTheVirtualMachine, IsRefusedForWhatTheMachineCannotDo) {
         write_file(person.folder() / "part.ngc", program);
         person.open(person.folder() / "part.ngc");
         person.wait_idle();
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(2);
         person.wait_idle();
         person.frames(2);
@@ -42,7 +42,7 @@ TEST(RunOfTheVirtualMachine, TheNoteOfAFailureGoesWithItsProgram) {
         write_file(person.folder() / name, "G21 G90\nG1 X9 F1000\nG0 X0\nM2\n");
         person.open(person.folder() / name);
         person.wait_idle();
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(2);
     };
     const std::string note = "inspector/job/failure";
@@ -53,7 +53,7 @@ TEST(RunOfTheVirtualMachine, TheNoteOfAFailureGoesWithItsProgram) {
     ASSERT_TRUE(person.sees(note));
     open("b.ngc");
     EXPECT_FALSE(person.sees(note));
-    EXPECT_FALSE(person.workshop().look().job.failure);
+    EXPECT_FALSE(person.app().look().job.failure);
 }
 
 } // namespace

@@ -146,7 +146,7 @@ protected:
 
     void look_everywhere() {
         for (const std::string_view workspace : every_workspace) {
-            person.workshop().run("view." + std::string(workspace));
+            person.app().run("view." + std::string(workspace));
             person.frames(3);
             open_sections();
             look(std::string(workspace));
@@ -160,19 +160,19 @@ TEST_P(Monitors, ShowEveryWorkspaceAndAllItsTabs) {
 }
 
 TEST_P(Monitors, ShowTwoResultsSideBySide) {
-    person.workshop().run("view.toolpath");
+    person.app().run("view.toolpath");
     person.frames(3);
     person.choose("inspector/error/beside", "uniform");
     look("beside");
 }
 
 TEST_P(Monitors, ShowAProgramAPlotAndAMachine) {
-    person.workshop().receive({"assets/samples/plot/hatched-sign.plt"});
+    person.app().receive({"assets/samples/plot/hatched-sign.plt"});
     person.wait_idle();
     person.wait_idle();
     open_sections();
     look("plot-opened");
-    person.workshop().run("view.program");
+    person.app().run("view.program");
     person.open("assets/samples/thesis-path.ngc");
     look("program-opened");
     test::GrblBench grbl;
@@ -183,7 +183,7 @@ TEST_P(Monitors, ShowAProgramAPlotAndAMachine) {
 
 TEST_P(Monitors, ShowEveryMenuWhole) {
     for (const char* workspace : {"design", "machine", "processor", "plot", "arm"}) {
-        person.workshop().run(std::string("view.") + workspace);
+        person.app().run(std::string("view.") + workspace);
         person.frames(3);
         const std::vector<std::string> behind(person.desktop().ui().cut_texts().begin(),
                                               person.desktop().ui().cut_texts().end());
@@ -218,7 +218,7 @@ TEST_P(Monitors, ShowTheDialogs) {
     look("dialog-open");
     person.press_key(render::Key::escape);
     for (const char* action : {"file.save_as", "view.colors", "help.keys", "help.about", "view.search"}) {
-        person.workshop().run(action);
+        person.app().run(action);
         look(std::string("dialog-") + action);
         person.press_key(render::Key::escape);
         person.frames(2);
@@ -228,7 +228,7 @@ TEST_P(Monitors, ShowTheDialogs) {
 /// Names of places in the view lie under no button of it, from wherever it is seen.
 TEST_P(Monitors, KeepLabelsOffTheButtonsOfTheView) {
     using render::Key;
-    person.workshop().run("view.toolpath");
+    person.app().run("view.toolpath");
     person.frames(3);
     for (const Key side : {Key::digit_0, Key::digit_1, Key::digit_2, Key::digit_3, Key::digit_7}) {
         person.hover(person.place("view").centre());

@@ -2,7 +2,7 @@
 #include "core/base/files.h"
 #include "tests/ui/panels/at_machine.h"
 #include "ui/actions/at_rest.h"
-#include "ui/actions/start_question.h"
+#include "ui/actions/start_prompt.h"
 #include "ui/panels/view_panel.h"
 
 #include <gmock/gmock.h>
@@ -27,33 +27,33 @@ protected:
         person.wait_idle();
     }
     void show_machine() {
-        person.workshop().run("view.machine");
+        person.app().run("view.machine");
         person.frames(3);
     }
     [[nodiscard]] bool is_asked() { return person.sees(start); }
     void wait_for_check() {
         ASSERT_TRUE(person.live_until([this] {
-            const auto now = person.workshop().look();
-            return is_asked() && now.start_check && now.start_check->wish == now.session.start;
+            const auto now = person.app().look();
+            return is_asked() && now.start_check && now.start_check->wish == now.view_state.start;
         }));
     }
     /// Of Run, once the whole program was read for this machine.
     [[nodiscard]] std::string run_refusal() {
-        EXPECT_TRUE(person.live_until([this] { return person.workshop().look().run_check != nullptr; }));
+        EXPECT_TRUE(person.live_until([this] { return person.app().look().run_check != nullptr; }));
         person.frames(2);
         return person.refusal("inspector/job/machine_run");
     }
     /// Opens the sheet for what is shown, which Run may refuse.
     void ask_all_the_same() {
-        const auto now = person.workshop().look();
+        const auto now = person.app().look();
         const jobs::Job job = jobs::text_job(std::string(now.opened->text->bytes.text()), now.opened->file);
-        person.workshop().ask_to_start(actions::start_wish(job, {}, now.controller));
+        person.app().ask_to_start(actions::start_wish(job, {}, now.connection));
         person.frames(2);
         wait_for_check();
         person.frames(2);
     }
     [[nodiscard]] bool has_job() {
-        const auto job = person.workshop().look().job;
+        const auto job = person.app().look().job;
         return job.running || job.outcome || job.failure;
     }
 
@@ -72,19 +72,19 @@ TEST_F(StartSheetAtGrbl, F9InAnotherWorkspaceGoesToTheMachineAndNoFurther) {
                                  Workspace::processor,
                                  Workspace::plot,
                                  Workspace::arm}) {
-        person.workshop().session().workspace = from;
+        person.app().view_state().workspace = from;
         person.frames(3);
         person.press_key(render::Key::f9);
         person.frames(5);
-        EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+        EXPECT_EQ(person.app().view_state().workspace, Workspace::machine);
         EXPECT_FALSE(is_asked());
         EXPECT_FALSE(has_job());
     }
-    person.workshop().run("queue.add");
-    person.workshop().session().workspace = Workspace::program;
-    person.workshop().run("queue.run_next");
+    person.app().run("queue.add");
+    person.app().view_state().workspace = Workspace::program;
+    person.app().run("queue.run_next");
     person.frames(5);
-    EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+    EXPECT_EQ(person.app().view_state().workspace, Workspace::machine);
     EXPECT_TRUE(person.sees("lower/queue/queue_run_next"));
     EXPECT_FALSE(is_asked());
     EXPECT_FALSE(has_job());
@@ -102,10 +102,10 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
     }
     EXPECT_FALSE(person.sees("dialogs/start/Z"));    // it does not move
     EXPECT_TRUE(person.sees("dialogs/start/doubt")); // this Grbl was switched on, and nobody homed it
-    const auto check = person.workshop().look().start_check;
-    EXPECT_DOUBLE_EQ(check->survey.ranges[0].max, 40.0);
-    EXPECT_DOUBLE_EQ(check->survey.ranges[1].max, 12.5);
-    EXPECT_DOUBLE_EQ(check->survey.greatest_spindle_rpm, 800.0);
+    const auto check = person.app().look().start_check;
+    EXPECT_DOUBLE_EQ(check->program_check.ranges[0].max, 40.0);
+    EXPECT_DOUBLE_EQ(check->program_check.ranges[1].max, 12.5);
+    EXPECT_DOUBLE_EQ(check->program_check.greatest_spindle_rpm, 800.0);
     person.keep("machine-start");
 
     person.press_key(render::Key::escape);
@@ -120,8 +120,8 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
     person.press_key(render::Key::enter);
     EXPECT_FALSE(is_asked());
     ASSERT_TRUE(person.live_until([this] { return grbl.moving(); }));
-    person.workshop().run("machine.stop");
-    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().job.running; }));
+    person.app().run("machine.stop");
+    ASSERT_TRUE(person.live_until([this] { return !person.app().look().job.running; }));
 }
 
 TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
@@ -132,9 +132,9 @@ TEST_F(StartSheetAtGrbl, LetsTheControllerReadTheProgramAndSaysWhatItRefuses) {
     person.click("dialogs/start/start_check");
     const std::string answer = "dialogs/start/answer";
     ASSERT_TRUE(person.live_until([&] { // after the answer it is asked for its modes and offsets
-        return person.sees(answer) && actions::at_rest(person.workshop().look().controller).allowed;
+        return person.sees(answer) && actions::at_rest(person.app().look().connection).allowed;
     }));
-    EXPECT_THAT(person.workshop().look().controller.status.answer.text, HasSubstr("line 3: "));
+    EXPECT_THAT(person.app().look().connection.status.answer.text, HasSubstr("line 3: "));
     EXPECT_TRUE(is_asked());
     EXPECT_LT(grbl.last_motion(), 0.0);
     person.keep("machine-start-check");
@@ -150,18 +150,18 @@ TEST_F(StartSheetAtGrbl, TracesTheBoxInPlaceOfTheJob) {
     show_machine();
     person.press_key(render::Key::f9);
     wait_for_check();
-    person.workshop().run("machine.trust_position");
+    person.app().run("machine.trust_position");
     person.frames(2);
     person.click("dialogs/start/start_trace");
     ASSERT_TRUE(person.live_until([this] {
-        const auto job = person.workshop().look().job;
+        const auto job = person.app().look().job;
         return !job.running && job.outcome;
     }));
     EXPECT_FALSE(is_asked());
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_EQ(now.job.outcome->end, jobs::JobEnd::done) << now.job.outcome->sentence;
-    EXPECT_NEAR(now.controller.status.position[0], 2.0, 0.01); // back where it began
-    EXPECT_NEAR(now.controller.status.position[1], 2.0, 0.01);
+    EXPECT_NEAR(now.connection.status.position[0], 2.0, 0.01); // back where it began
+    EXPECT_NEAR(now.connection.status.position[1], 2.0, 0.01);
 }
 
 TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
@@ -177,8 +177,8 @@ TEST_F(StartSheetAtGrbl, EnterThatIsHeldFromBeforeStartsNothing) {
     person.frames(2);
     person.press_key(render::Key::enter);
     ASSERT_TRUE(person.live_until([this] { return grbl.moving(); }));
-    person.workshop().run("machine.emergency_stop");
-    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().job.running; }));
+    person.app().run("machine.emergency_stop");
+    ASSERT_TRUE(person.live_until([this] { return !person.app().look().job.running; }));
 }
 
 TEST_F(StartSheetAtGrbl, AProgramThatLeavesTheTravelCannotBeStarted) {
@@ -206,14 +206,14 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     EXPECT_THAT(person.refusal("inspector/job/machine_run"),
                 testing::AllOf(HasSubstr("The program moves A and B, but "),
                                HasSubstr("the connected machine has only X, Y and Z. Connect a machine")));
-    EXPECT_FALSE(scene_of(person.workshop().look()).layers.machine); // that of another machine
+    EXPECT_FALSE(scene_of(person.app().look()).layers.machine); // that of another machine
     EXPECT_TRUE(person.sees("inspector/job/axes"));
     person.keep("machine-other-axes");
-    person.workshop().run("machine.run");
+    person.app().run("machine.run");
     EXPECT_FALSE(is_asked());
     EXPECT_FALSE(has_job());
     // Where that is known only once the program was read for this machine, the sheet says it.
-    actions::ControllerView grbl_view = person.workshop().look().controller;
+    actions::ConnectionView grbl_view = person.app().look().connection;
     grbl_view.can.dialect.reset(); // Grbl's own rules do not know the word
     const auto job = jobs::text_job("G21 G90\nG1 X10 A30 F100\nM2\n", "turns.ngc");
     const auto wish = std::make_shared<const actions::StartWish>(actions::start_wish(job, {}, grbl_view));
@@ -230,9 +230,9 @@ TEST_F(StartSheetAtGrbl, RunIsCheckedAgainForAnotherProgramAndAnotherPosition) {
         return actions::check_start(std::make_shared<const actions::StartWish>(actions::start_wish(
                                         jobs::text_job(read_file(person.folder() / "part.ngc"), "part.ngc"),
                                         {},
-                                        person.workshop().look().controller)),
+                                        person.app().look().connection)),
                                     {})
-            .survey;
+            .program_check;
     };
     EXPECT_DOUBLE_EQ(extents().ranges[0].max, 20.0); // of the lines with A, too
     EXPECT_EQ(jobs::unread_text(extents()), "");
@@ -242,25 +242,24 @@ TEST_F(StartSheetAtGrbl, RunIsCheckedAgainForAnotherProgramAndAnotherPosition) {
     open("G21 G91 G94\nG0 X150\nM2\n"); // a travel of 200 mm of which the beginning is not known
     show_machine();
     EXPECT_EQ(run_refusal(), "");
-    const auto before = person.workshop().look().run_check;
+    const auto before = person.app().look().run_check;
     person.frames(30);
-    EXPECT_EQ(person.workshop().look().run_check, before) << "nothing has changed";
-    person.workshop().controller().tell(
-        [](drivers::Driver& driver) { (void)driver.command("G91 G0 X2\nG90"); });
+    EXPECT_EQ(person.app().look().run_check, before) << "nothing has changed";
+    person.app().connection().tell([](drivers::Driver& driver) { (void)driver.command("G91 G0 X2\nG90"); });
     ASSERT_TRUE(person.live_until([&] {
-        const auto now = person.workshop().look();
+        const auto now = person.app().look();
         return now.run_check && now.run_check != before &&
                now.run_check->wish->machine.status.position[0] > 1.99;
     }));
 }
 
 TEST_F(StartSheetAtGrbl, RunIsCheckedAgainOnceThePositionIsConfirmed) {
-    person.workshop().session().hand.tool_changes[grbl.port()].plan.way = drivers::ToolChangeWay::probe;
-    ASSERT_FALSE(person.workshop().look().controller.status.position_doubt.empty());
+    person.app().view_state().manual.tool_changes[grbl.port()].plan.way = drivers::ToolChangeWay::probe;
+    ASSERT_FALSE(person.app().look().connection.status.position_doubt.empty());
     open("G21 G90 G94\nT1 M6\nG0 Z5\nM3 S800\nG1 X5 F2000\nG0 Z6\nT3 M6\nG1 X9 F2000\nG0 Z8\nM30\n");
     show_machine();
     EXPECT_THAT(run_refusal(), HasSubstr("returning from a tool change needs a verified position"));
-    person.workshop().run("machine.trust_position");
+    person.app().run("machine.trust_position");
     ASSERT_TRUE(person.live_until([&] {
         return person.refusal("inspector/job/machine_run").find("a verified position") == std::string::npos;
     }));
@@ -268,7 +267,7 @@ TEST_F(StartSheetAtGrbl, RunIsCheckedAgainOnceThePositionIsConfirmed) {
 
 TEST_F(StartSheetAtGrbl, RunIsCheckedAgainOnceTheMacroIsRepaired) {
     const auto macro = person.folder() / "change.nc";
-    auto& plan = person.workshop().session().hand.tool_changes[grbl.port()].plan;
+    auto& plan = person.app().view_state().manual.tool_changes[grbl.port()].plan;
     plan.way = drivers::ToolChangeWay::macro;
     plan.macro_file = macro.string();
     open("G21 G90 G94\nT1 M6\nG0 Z5\nM3 S800\nG1 X5 F2000\nG0 Z8\nM30\n");
@@ -284,9 +283,9 @@ TEST_F(StartSheetAtGrbl, AProgramWithALineThatGrblCannotReadIsNotOfferedAndItsEx
     show_machine();
     EXPECT_THAT(run_refusal(), HasSubstr("part.ngc:3:1: "));
     ask_all_the_same();
-    const jobs::Survey& survey = person.workshop().look().start_check->survey;
-    EXPECT_DOUBLE_EQ(survey.ranges[0].max, 30.0);
-    EXPECT_EQ(jobs::unread_text(survey), "line 3");
+    const jobs::ProgramCheck& program_check = person.app().look().start_check->program_check;
+    EXPECT_DOUBLE_EQ(program_check.ranges[0].max, 30.0);
+    EXPECT_EQ(jobs::unread_text(program_check), "line 3");
     EXPECT_TRUE(person.sees("dialogs/start/unread"));
     person.keep("machine-start-unread");
 }
@@ -296,8 +295,8 @@ TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {
     show_machine();
     person.click("inspector/job/machine_run");
     wait_for_check();
-    person.workshop().controller().disconnect();
-    ASSERT_TRUE(person.live_until([this] { return !person.workshop().look().controller.connected(); }));
+    person.app().connection().disconnect();
+    ASSERT_TRUE(person.live_until([this] { return !person.app().look().connection.connected(); }));
     person.frames(2);
     EXPECT_THAT(person.refusal(start), HasSubstr("no longer connected"));
     person.press_key(render::Key::enter);
@@ -314,7 +313,7 @@ TEST_F(StartSheetAtGrbl, F9DoesNothingWhileSomethingElseIsAsked) {
     ASSERT_TRUE(person.sees("dialogs/files/entries"));
     person.press_key(render::Key::f9);
     person.frames(5);
-    EXPECT_FALSE(person.workshop().session().start);
+    EXPECT_FALSE(person.app().view_state().start);
     EXPECT_FALSE(has_job());
 }
 

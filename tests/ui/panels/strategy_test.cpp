@@ -21,64 +21,64 @@ class Strategies : public ::testing::Test {
 protected:
     Strategies() {
         person_.open("assets/projects/dome.json");
-        person_.workshop().edit("Change the grid",
-                                [](project::Project& p) {
-                                    p.grid.nu = 7;
-                                    p.grid.nv = 9;
-                                },
-                                {});
+        person_.app().edit("Change the grid",
+                           [](project::Project& p) {
+                               p.grid.nu = 7;
+                               p.grid.nv = 9;
+                           },
+                           {});
         person_.press_key(render::Key::f4);
         person_.wait_idle();
     }
 
-    [[nodiscard]] const plan::Plan& plan() { return person_.workshop().look().plan->plan; }
+    [[nodiscard]] const plan::Plan& plan() { return person_.app().look().plan->plan; }
 
     Person person_{{1600, 1400}};
 };
 
 TEST_F(Strategies, ASpiralIsChosenShownAndUndone) {
-    const auto zigzag = person_.workshop().look().shown();
-    person_.workshop().run("view.layer_produced");
+    const auto zigzag = person_.app().look().shown();
+    person_.app().run("view.layer_produced");
     person_.frames();
     EXPECT_FALSE(person_.sees("view/left_out"));
     person_.choose("inspector/strategy/strategy", "spiral");
     EXPECT_TRUE(person_.sees("view/left_out")) << "why a spiral has no produced surface";
     EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::spiral);
     ASSERT_NE(plan().path, nullptr);
-    EXPECT_EQ(person_.workshop().look().shown(), plan().path);
-    EXPECT_EQ(person_.workshop().look().program_path(), plan().path);
+    EXPECT_EQ(person_.app().look().shown(), plan().path);
+    EXPECT_EQ(person_.app().look().program_path(), plan().path);
     EXPECT_FALSE(person_.sees("inspector/strategy/tolerance_mm"));
     EXPECT_FALSE(person_.sees("inspector/strategy/scallop_mm"));
     person_.keep("strategy-spiral");
     person_.choose("inspector/error/shown", "tracks");
-    EXPECT_EQ(person_.workshop().look().shown(), plan().grid(GridMethod::tracks).evaluation);
+    EXPECT_EQ(person_.app().look().shown(), plan().grid(GridMethod::tracks).evaluation);
     person_.click("lower/tabs/compare");
     person_.keep("strategy-compare");
     person_.choose("inspector/error/shown", "path");
-    EXPECT_EQ(person_.workshop().look().shown(), plan().path);
+    EXPECT_EQ(person_.app().look().shown(), plan().path);
     person_.press_key(render::Key::z, true);
     person_.wait_idle();
     EXPECT_EQ(person_.project().toolpath.strategy, StrategyInput::zigzag);
     EXPECT_EQ(plan().path, nullptr);
-    EXPECT_EQ(person_.workshop().look().shown()->closest.max, zigzag->closest.max);
+    EXPECT_EQ(person_.app().look().shown()->closest.max, zigzag->closest.max);
 }
 
 TEST_F(Strategies, WhatACoarseSpiralSaysOfItsGridIsSoFar) {
-    person_.workshop().edit("Take the two bells",
-                            [](project::Project& p) {
-                                p = project::project_from_preset("two-bell");
-                                p.grid.nu = p.grid.nv = 8;
-                                p.grid.method = GridMethod::tracks;
-                                p.toolpath.strategy = StrategyInput::spiral;
-                            },
-                            {});
+    person_.app().edit("Take the two bells",
+                       [](project::Project& p) {
+                           p = project::project_from_preset("two-bell");
+                           p.grid.nu = p.grid.nv = 8;
+                           p.grid.method = GridMethod::tracks;
+                           p.toolpath.strategy = StrategyInput::spiral;
+                       },
+                       {});
     person_.wait_idle();
-    actions::Workbench now = person_.workshop().look();
+    actions::FrameState now = person_.app().look();
     const std::string exact = grid_note(now);
     ASSERT_THAT(exact, EndsWith("so the uniform grid is kept."));
     plan::PublishedPlan plan = *now.plan;
     plan::Evaluation coarse = *plan.plan.path;
-    coarse.outcome.status = grid::ImproverStatus::running;
+    coarse.outcome.status = grid::OptimiserStatus::running;
     plan.plan.path = std::make_shared<const plan::Evaluation>(std::move(coarse));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_THAT(grid_note(now), StartsWith(exact + " Preliminary: measured coarsely"));
@@ -102,7 +102,7 @@ TEST_F(Strategies, OnlyTheFieldsThatMatterAreThere) {
     person_.choose("inspector/strategy/strategy", "constant-scallop");
     EXPECT_TRUE(person_.sees("inspector/strategy/no_cutter"));
     EXPECT_EQ(plan().program, nullptr) << "a point tool leaves no scallops";
-    EXPECT_FALSE(person_.workshop().look().failure().empty());
+    EXPECT_FALSE(person_.app().look().failure().empty());
     person_.choose("inspector/tool/cutter", "ball");
     EXPECT_FALSE(person_.sees("inspector/strategy/no_cutter"));
     EXPECT_FALSE(person_.sees("inspector/tool/scallop_mm")) << "asked for once";
@@ -132,15 +132,15 @@ TEST_F(Strategies, WhyConstantScallopLeavesMoreIsToldBesideWhatIsLeft) {
 }
 
 TEST_F(Strategies, WhereAddedPointsMakeTheUniformGridTheBetterOneIsTold) {
-    person_.workshop().edit("Take the two bells",
-                            [](project::Project& p) {
-                                p = project::project_from_preset("two-bell");
-                                p.grid.nu = p.grid.nv = 8;
-                            },
-                            {});
+    person_.app().edit("Take the two bells",
+                       [](project::Project& p) {
+                           p = project::project_from_preset("two-bell");
+                           p.grid.nu = p.grid.nv = 8;
+                       },
+                       {});
     person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/sequencing/uniform_better"));
-    person_.workshop().edit(
+    person_.app().edit(
         "Limit the turn", [](project::Project& p) { p.sequencing.largest_step_deg = 20.0; }, {});
     person_.wait_idle();
     EXPECT_TRUE(person_.sees("inspector/sequencing/uniform_better"));
@@ -161,7 +161,7 @@ TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
         << "nearly equal steps again";
     person_.choose("inspector/grid/method", "harmonic");
     ASSERT_NE(plan().grid(GridMethod::harmonic).evaluation, nullptr);
-    EXPECT_EQ(person_.workshop().look().shown(), plan().grid(GridMethod::harmonic).evaluation);
+    EXPECT_EQ(person_.app().look().shown(), plan().grid(GridMethod::harmonic).evaluation);
     EXPECT_FALSE(person_.sees("inspector/redistribution/floor"));
     EXPECT_FALSE(person_.sees("inspector/elliptic/adaptation"));
     EXPECT_FALSE(person_.sees("inspector/elliptic/solver"));
@@ -169,7 +169,7 @@ TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
     person_.keep("grid-harmonic");
     person_.click("inspector/watch/grid_redistribute");
     person_.wait_idle();
-    const auto watched = person_.workshop().look().watched;
+    const auto watched = person_.app().look().watched;
     ASSERT_TRUE(watched && watched->state);
     EXPECT_EQ(watched->method, GridMethod::redistribution);
     EXPECT_LT(watched->state->of_best.mean, watched->state->start.mean);
@@ -177,7 +177,7 @@ TEST_F(Strategies, GridMethodsAreChosenAndWatched) {
 
 /// What was never made has no path and no figures: the uniform ones must not stand under its name.
 TEST_F(Strategies, OnlyGridsThatAreMadeAreShownAndKept) {
-    const auto look = [&] { return person_.workshop().look(); };
+    const auto look = [&] { return person_.app().look(); };
     ASSERT_FALSE(look().evaluation(GridMethod::harmonic));
     person_.click("inspector/error/shown");
     EXPECT_TRUE(person_.sees("inspector/error/shown/elliptic"));
@@ -186,16 +186,16 @@ TEST_F(Strategies, OnlyGridsThatAreMadeAreShownAndKept) {
     person_.keep("toolpath-shown-grids");
     person_.click("inspector/error/shown/elliptic");
     EXPECT_EQ(look().shown(), plan().grid(GridMethod::elliptic).evaluation);
-    person_.workshop().run("view.show_harmonic"); // refused
+    person_.app().run("view.show_harmonic"); // refused
     EXPECT_EQ(look().shown_name(), "Elliptic");
-    person_.workshop().session().shown = GridMethod::harmonic; // as after a machine was changed
+    person_.app().view_state().shown = GridMethod::harmonic; // as after a machine was changed
     person_.frames();
     EXPECT_EQ(look().shown(), plan().grid(GridMethod::uniform).evaluation);
     EXPECT_EQ(look().shown_name(), "Uniform");
     person_.keep("toolpath-shown-not-made");
-    person_.workshop().run("view.keep_result");
-    ASSERT_TRUE(person_.workshop().session().kept);
-    EXPECT_EQ(person_.workshop().session().kept->name.find("Uniform on "), 0U);
+    person_.app().run("view.keep_result");
+    ASSERT_TRUE(person_.app().view_state().kept);
+    EXPECT_EQ(person_.app().view_state().kept->name.find("Uniform on "), 0U);
 }
 
 } // namespace

@@ -17,12 +17,12 @@ class SurfaceTools : public ::testing::Test {
 protected:
     SurfaceTools() {
         person_.open("assets/projects/dome.json");
-        person_.workshop().edit("Change the grid",
-                                [](project::Project& p) {
-                                    p.grid.nu = 9;
-                                    p.grid.nv = 9;
-                                },
-                                {});
+        person_.app().edit("Change the grid",
+                           [](project::Project& p) {
+                               p.grid.nu = 9;
+                               p.grid.nv = 9;
+                           },
+                           {});
         person_.press_key(render::Key::f3);
         person_.wait_idle();
         person_.press_key(render::Key::digit_2); // from the top
@@ -43,14 +43,14 @@ protected:
 };
 
 TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMadeToCount) {
-    person_.workshop().edit("Weigh by a formula",
-                            [](project::Project& p) {
-                                p.grid.elliptic.weight = project::WeightSource::mixed;
-                                p.grid.elliptic.mix = {
-                                    .error = 0.0, .painted = 1.0, .expression = 1.0, .high = 1e4};
-                                p.grid.elliptic.expression = "10 + 900 * u";
-                            },
-                            {});
+    person_.app().edit("Weigh by a formula",
+                       [](project::Project& p) {
+                           p.grid.elliptic.weight = project::WeightSource::mixed;
+                           p.grid.elliptic.mix = {
+                               .error = 0.0, .painted = 1.0, .expression = 1.0, .high = 1e4};
+                           p.grid.elliptic.expression = "10 + 900 * u";
+                       },
+                       {});
     person_.wait_idle();
     person_.click("inspector/surface_tool/tool/brush");
     person_.fill_in("inspector/surface_tool/radius", "12");
@@ -59,22 +59,22 @@ TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMade
     person_.wait_idle();
     EXPECT_TRUE(person_.sees("inspector/surface_tool/faint"));
     person_.keep("grid-faint-paint");
-    const double before = person_.workshop().look().plan->plan.weight->high;
+    const double before = person_.app().look().plan->plan.weight->high;
     person_.click("inspector/surface_tool/raise_paint");
     person_.wait_idle();
-    EXPECT_GT(person_.workshop().look().plan->plan.weight->high, 1.1 * before);
+    EXPECT_GT(person_.app().look().plan->plan.weight->high, 1.1 * before);
     EXPECT_FALSE(person_.sees("inspector/surface_tool/faint"));
     person_.keep("grid-paint-raised");
 }
 
 // The grid stayed uniform, unsaid.
 TEST_F(SurfaceTools, AMixWithoutAnyShareIsTold) {
-    person_.workshop().edit("Weigh by a mix",
-                            [](project::Project& p) {
-                                p.grid.elliptic.weight = project::WeightSource::mixed;
-                                p.grid.elliptic.mix = {.error = 0.0, .curvature = 1.0};
-                            },
-                            {});
+    person_.app().edit("Weigh by a mix",
+                       [](project::Project& p) {
+                           p.grid.elliptic.weight = project::WeightSource::mixed;
+                           p.grid.elliptic.mix = {.error = 0.0, .curvature = 1.0};
+                       },
+                       {});
     person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/elliptic/mix/no_share"));
     for (const auto& [share, value] : {std::pair("curvature", "0"), std::pair("painted", "1")}) {
@@ -82,19 +82,19 @@ TEST_F(SurfaceTools, AMixWithoutAnyShareIsTold) {
         person_.wait_idle();
         EXPECT_TRUE(person_.sees("inspector/elliptic/mix/no_share")) << share; // nothing is painted
     }
-    EXPECT_FALSE(person_.workshop().look().plan->failure);
+    EXPECT_FALSE(person_.app().look().plan->failure);
     person_.keep("grid-no-share");
 }
 
 // T20.
 TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.click("inspector/surface_tool/tool/brush");
-    ASSERT_EQ(person_.workshop().session().surface_tool.kind, SurfaceToolKind::brush);
-    EXPECT_TRUE(person_.workshop().session().layers_now().weight);
+    ASSERT_EQ(person_.app().view_state().surface_tool.kind, SurfaceToolKind::brush);
+    EXPECT_TRUE(person_.app().view_state().layers_now().weight);
     person_.fill_in("inspector/surface_tool/radius", "12");
     person_.fill_in("inspector/surface_tool/strength", "1");
     person_.wait_idle();
-    const auto weight = person_.workshop().look().plan->plan.weight;
+    const auto weight = person_.app().look().plan->plan.weight;
     person_.hover(at(0.5F, 0.5F));
     const render::Picture with_ring = person_.picture_of("view/iso");
     person_.hover(at(0.02F, 0.02F));
@@ -108,7 +108,7 @@ TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     EXPECT_EQ(std::ranges::max(painted()->values), 1.0);
     EXPECT_EQ(painted()->values.front(), 0.0) << "not in the corner of the surface";
     person_.wait_idle();
-    EXPECT_NE(person_.workshop().look().plan->plan.weight->values, weight->values);
+    EXPECT_NE(person_.app().look().plan->plan.weight->values, weight->values);
     person_.hover(at(0.5F, 0.42F));
     person_.keep("grid-brush");
     const grid::Field once = *painted();
@@ -144,18 +144,18 @@ TEST_F(SurfaceTools, SayThatTheProgramsGridFollowsNoPaintAndHelp) {
     EXPECT_FALSE(person_.sees("inspector/surface_tool/no_weight"));
     person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
     person_.wait_idle();
-    EXPECT_NE(person_.workshop().look().plan->plan.weight, nullptr);
-    person_.workshop().edit("Choose the path",
-                            [](project::Project& p) {
-                                p.toolpath.strategy = project::StrategyInput::constant_scallop;
-                                p.tool.cutter = toolpath::CutterKind::ball;
-                            },
-                            {});
+    EXPECT_NE(person_.app().look().plan->plan.weight, nullptr);
+    person_.app().edit("Choose the path",
+                       [](project::Project& p) {
+                           p.toolpath.strategy = project::StrategyInput::constant_scallop;
+                           p.tool.cutter = toolpath::CutterKind::ball;
+                       },
+                       {});
     person_.wait_idle();
     EXPECT_TRUE(person_.sees("inspector/surface_tool/own_points"));
     person_.click("inspector/surface_tool/use_zigzag");
     EXPECT_EQ(person_.project().toolpath.strategy, project::StrategyInput::zigzag);
-    person_.workshop().run("grid.use_harmonic");
+    person_.app().run("grid.use_harmonic");
     person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/surface_tool/no_weight"));
 }
@@ -165,13 +165,13 @@ TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
     for (const auto& [x, y] : {std::pair{0.42F, 0.42F}, {0.58F, 0.42F}, {0.58F, 0.58F}, {0.42F, 0.58F}}) {
         person_.click_at(at(x, y));
     }
-    EXPECT_EQ(person_.workshop().session().surface_tool.draft.size(), 4U);
+    EXPECT_EQ(person_.app().view_state().surface_tool.draft.size(), 4U);
     EXPECT_TRUE(region().everywhere()) << "not before it is closed";
     person_.click("view/corner(0)");
     ASSERT_EQ(region().outline.size(), 4U);
-    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    EXPECT_TRUE(person_.app().view_state().surface_tool.draft.empty());
     person_.wait_idle();
-    const auto everywhere = person_.workshop().look().plan->plan.weight;
+    const auto everywhere = person_.app().look().plan->plan.weight;
     person_.keep("grid-outline");
     const Vec2 before = region().outline[1];
     person_.drag(person_.place("view/corner(1)").centre(), at(0.64F, 0.38F), 8);
@@ -185,7 +185,7 @@ TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
     person_.fill_in("inspector/surface_tool/border_mm", "3");
     EXPECT_EQ(region().border_mm, 3.0);
     person_.wait_idle();
-    EXPECT_NE(person_.workshop().look().plan->plan.weight->values, everywhere->values);
+    EXPECT_NE(person_.app().look().plan->plan.weight->values, everywhere->values);
     person_.click("inspector/surface_tool/clear_outline");
     EXPECT_TRUE(region().everywhere());
 }
@@ -193,12 +193,12 @@ TEST_F(SurfaceTools, AnOutlineIsClickedClosedAndDragged) {
 TEST_F(SurfaceTools, AnOutlineWithoutAreaIsToldAndItsCornersStay) {
     person_.click("inspector/surface_tool/tool/outline");
     const std::vector<Vec2> line{{0.4, 0.5}, {0.6, 0.5}, {0.5, 0.5}};
-    person_.workshop().session().surface_tool.draft = line;
+    person_.app().view_state().surface_tool.draft = line;
     person_.wait_idle();
     person_.click("view/corner(0)");
     person_.wait_idle();
     EXPECT_TRUE(region().everywhere());
-    EXPECT_EQ(person_.workshop().session().surface_tool.draft, line);
+    EXPECT_EQ(person_.app().view_state().surface_tool.draft, line);
     EXPECT_TRUE(person_.sees("notices/1"));
     person_.keep("grid-outline-in-a-line");
 }
@@ -207,12 +207,12 @@ TEST_F(SurfaceTools, EscDropsAnOutlineInTheMaking) {
     person_.click("inspector/surface_tool/tool/outline");
     person_.click_at(at(0.45F, 0.45F));
     person_.click_at(at(0.55F, 0.45F));
-    EXPECT_EQ(person_.workshop().session().surface_tool.draft.size(), 2U);
+    EXPECT_EQ(person_.app().view_state().surface_tool.draft.size(), 2U);
     person_.press_key(render::Key::escape);
-    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    EXPECT_TRUE(person_.app().view_state().surface_tool.draft.empty());
     person_.click_at(at(0.45F, 0.45F));
     person_.click("inspector/surface_tool/tool/none");
-    EXPECT_TRUE(person_.workshop().session().surface_tool.draft.empty());
+    EXPECT_TRUE(person_.app().view_state().surface_tool.draft.empty());
     EXPECT_TRUE(region().everywhere());
 }
 

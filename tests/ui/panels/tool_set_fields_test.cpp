@@ -16,7 +16,7 @@ TEST(ToolSetFields, ChangeTheMachineAndGoBackToItsFile) {
     Person person({1600, 1400});
     person.press_key(render::Key::f4);
     person.wait_idle();
-    const auto mean = [&] { return person.workshop().look().shown()->closest.mean; };
+    const auto mean = [&] { return person.app().look().shown()->closest.mean; };
     const double before = mean();
     EXPECT_TRUE(person.sees("inspector/setup/tool_set/AB"));
     EXPECT_FALSE(person.sees("inspector/setup/tool_set/file"));
@@ -44,7 +44,7 @@ TEST(ToolSetFields, EachOneIsItsOwnConstantOfTheThesis) {
     Person person({1600, 1400});
     person.press_key(render::Key::f4);
     person.wait_idle();
-    const auto mean = [&] { return person.workshop().look().shown()->closest.mean; };
+    const auto mean = [&] { return person.app().look().shown()->closest.mean; };
     project::ToolSetInput expected{.e = 0.08, .OF = 119.644, .AB = 251.286, .B4 = 371.943};
     double before = mean();
     const auto fill = [&](const char* id, const char* text) {
@@ -71,7 +71,7 @@ TEST(ToolSetFields, EachOneIsItsOwnConstantOfTheThesis) {
     EXPECT_EQ(*person.project().machine.tool_set, expected) << "what is no number changes nothing";
     person.press_key(render::Key::escape);
     for (int n = 0; n < 4; ++n) {
-        person.workshop().run("edit.undo");
+        person.app().run("edit.undo");
     }
     EXPECT_FALSE(person.project().machine.tool_set);
 }
@@ -91,9 +91,9 @@ TEST(ToolSetFields, ThePlaceOfThePartIsTypedInThreeFields) {
         EXPECT_LT((*person.project().machine.workpiece_offset - expected).norm(), 1e-9) << id;
         ++axis;
     }
-    const auto planned = person.workshop().look().plan;
-    ASSERT_TRUE(planned && planned->plan.workpiece);
-    EXPECT_LT((planned->plan.workpiece->machine.description().workpiece_offset - expected).norm(), 1e-9)
+    const auto planned = person.app().look().plan;
+    ASSERT_TRUE(planned && planned->plan.cutting_setup);
+    EXPECT_LT((planned->plan.cutting_setup->machine.description().workpiece_offset - expected).norm(), 1e-9)
         << "and it is planned there";
 }
 

@@ -24,12 +24,12 @@ class ToolpathWorkspace : public ::testing::Test {
 protected:
     ToolpathWorkspace() {
         person_.open(dome_project);
-        person_.workshop().edit("Change the grid",
-                                [](project::Project& p) {
-                                    p.grid.nu = 6;
-                                    p.grid.nv = 8;
-                                },
-                                {});
+        person_.app().edit("Change the grid",
+                           [](project::Project& p) {
+                               p.grid.nu = 6;
+                               p.grid.nv = 8;
+                           },
+                           {});
         person_.press_key(render::Key::f4);
         person_.wait_idle();
     }
@@ -43,19 +43,19 @@ protected:
 
     /// The part of the view that the tool covers, half way through the motion.
     [[nodiscard]] double share_of_tool() {
-        person_.workshop().session().playback.time = 0.5 * person_.workshop().look().duration();
+        person_.app().view_state().playback.time = 0.5 * person_.app().look().duration();
         person_.frames(3);
         const render::Picture with = person_.picture_of("view/iso");
-        person_.workshop().run("view.layer_tool");
+        person_.app().run("view.layer_tool");
         person_.frames(3);
         const render::Picture without = person_.picture_of("view/iso");
-        person_.workshop().run("view.layer_tool");
+        person_.app().run("view.layer_tool");
         person_.frames(3);
         EXPECT_EQ(person_.picture_of("view/iso"), with);
         return render::difference(with, without, 0).fraction;
     }
 
-    [[nodiscard]] const plan::Plan& plan() { return person_.workshop().look().plan->plan; }
+    [[nodiscard]] const plan::Plan& plan() { return person_.app().look().plan->plan; }
 
     Person person_{tall};
 };
@@ -65,7 +65,7 @@ TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
     person_.wait_idle();
     EXPECT_FALSE(person_.sees("inspector/tool/diameter_mm"));
     EXPECT_FALSE(person_.sees("inspector/cut/deepest"));
-    const auto point_path = person_.workshop().look().shown()->path_length;
+    const auto point_path = person_.app().look().shown()->path_length;
     person_.choose("inspector/tool/cutter", "bull-nose");
     EXPECT_EQ(person_.project().tool.cutter, CutterKind::bull_nose);
     EXPECT_TRUE(person_.sees("inspector/tool/corner_radius_mm"));
@@ -77,7 +77,7 @@ TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
     person_.wait_idle();
     ASSERT_NE(plan().cut, nullptr);
     EXPECT_TRUE(person_.sees("inspector/cut/deepest"));
-    EXPECT_NE(person_.workshop().look().shown()->path_length, point_path);
+    EXPECT_NE(person_.app().look().shown()->path_length, point_path);
     person_.keep("toolpath-tool");
     person_.press_key(render::Key::z, true);
     person_.press_key(render::Key::z, true);
@@ -85,7 +85,7 @@ TEST_F(ToolpathWorkspace, AToolIsChosenAndItsFiguresAreThere) {
     person_.wait_idle();
     EXPECT_EQ(person_.project().tool, project::ToolInput{});
     EXPECT_EQ(plan().cut, nullptr);
-    EXPECT_EQ(person_.workshop().look().shown()->path_length, point_path);
+    EXPECT_EQ(person_.app().look().shown()->path_length, point_path);
 }
 
 TEST_F(ToolpathWorkspace, WhereNoPassComesNearAtLeastSoMuchIsLeft) {
@@ -106,8 +106,7 @@ TEST_F(ToolpathWorkspace, AShapeThatCannotBeIsRefusedWithItsReason) {
     person_.fill_in("inspector/tool/corner_radius_mm", "4");
     person_.wait_idle();
     EXPECT_EQ(person_.project().tool.corner_radius_mm, project::ToolInput().corner_radius_mm);
-    EXPECT_NE(person_.workshop().session().log.back().find("does not fit into a diameter"),
-              std::string::npos);
+    EXPECT_NE(person_.app().view_state().log.back().find("does not fit into a diameter"), std::string::npos);
     EXPECT_EQ(plan().cut, before);
 }
 
@@ -131,27 +130,26 @@ TEST_F(ToolpathWorkspace, TheToolIsDrawnAsItIs) {
 
 TEST_F(ToolpathWorkspace, MorePointsAreAddedWhereTheAxesTurnFast) {
     fold({"error", "strategy", "tool"});
-    const std::size_t before = person_.workshop().look().shown()->toolpath.points.size();
+    const std::size_t before = person_.app().look().shown()->toolpath.points.size();
     person_.choose("inspector/sequencing/goal", "error");
     EXPECT_EQ(person_.project().sequencing.goal, toolpath::SequencingGoal::error);
     person_.fill_in("inspector/sequencing/largest_step_deg", "10");
     person_.wait_idle();
-    EXPECT_GT(person_.workshop().look().shown()->toolpath.points.size(), before);
+    EXPECT_GT(person_.app().look().shown()->toolpath.points.size(), before);
     person_.keep("toolpath-sequencing");
 }
 
 /// A ball that is too thick for the valleys between the two bells.
 TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
-    person_.workshop().edit("Open the two bells",
-                            [](project::Project& p) {
-                                p.surface = project::project_from_preset("two-bell").surface;
-                                p.machine.file = "router-xyz";
-                                p.grid.method = GridMethod::uniform;
-                                p.tool = {
-                                    .cutter = CutterKind::ball, .diameter_mm = 60.0, .length_mm = 100.0};
-                            },
-                            {});
-    person_.workshop().session().shown = GridMethod::uniform;
+    person_.app().edit("Open the two bells",
+                       [](project::Project& p) {
+                           p.surface = project::project_from_preset("two-bell").surface;
+                           p.machine.file = "router-xyz";
+                           p.grid.method = GridMethod::uniform;
+                           p.tool = {.cutter = CutterKind::ball, .diameter_mm = 60.0, .length_mm = 100.0};
+                       },
+                       {});
+    person_.app().view_state().shown = GridMethod::uniform;
     person_.wait_idle();
     ASSERT_TRUE(plan().cut);
     ASSERT_FALSE(plan().cut->bites.empty());
@@ -160,13 +158,13 @@ TEST_F(ToolpathWorkspace, GougesAreMarkedAndListedAndAClickGoesThere) {
     const std::string row = "lower/gouges/cutter_" + std::to_string(first.block);
     ASSERT_TRUE(person_.sees(row));
     person_.click(row);
-    EXPECT_EQ(person_.workshop().look().block(), first.block);
+    EXPECT_EQ(person_.app().look().block(), first.block);
     person_.keep("toolpath-gouges");
-    person_.workshop().run("view.layer_scallops");
+    person_.app().run("view.layer_scallops");
     person_.frames(3);
     person_.keep("toolpath-scallops");
     const render::Picture with = person_.picture_of("view/iso");
-    person_.workshop().run("view.layer_gouges");
+    person_.app().run("view.layer_gouges");
     person_.frames(3);
     EXPECT_NE(person_.picture_of("view/iso"), with);
 }
@@ -175,18 +173,18 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
     fold({"error", "strategy", "tool", "setup", "set_up_search"});
     EXPECT_FALSE(person_.refusal("inspector/set_up_search/set_up_accept").empty());
     person_.fill_in("inspector/set_up_search/places", "5");
-    person_.workshop().session().set_up.settings.nodes = 6;
+    person_.app().view_state().set_up.settings.nodes = 6;
     person_.click("inspector/set_up_search/set_up_search");
     person_.wait_idle();
-    const auto found = person_.workshop().look().set_up;
+    const auto found = person_.app().look().set_up;
     ASSERT_TRUE(found && found->study);
     EXPECT_TRUE(person_.sees("inspector/set_up_search/map"));
     person_.keep("toolpath-set-up");
-    const double before = person_.workshop().look().evaluation(GridMethod::uniform)->closest.mean;
+    const double before = person_.app().look().evaluation(GridMethod::uniform)->closest.mean;
     person_.click("inspector/set_up_search/set_up_accept");
     person_.wait_idle();
     EXPECT_EQ(person_.project().machine.workpiece_offset, Vec3(found->study->search.best.place.head<3>()));
-    EXPECT_LT(person_.workshop().look().evaluation(GridMethod::uniform)->closest.mean, before);
+    EXPECT_LT(person_.app().look().evaluation(GridMethod::uniform)->closest.mean, before);
     const std::string accept = "inspector/set_up_search/set_up_accept";
     EXPECT_EQ(person_.refusal(accept), "The part is already there.");
     person_.keep("toolpath-set-up-accepted");
@@ -197,18 +195,18 @@ TEST_F(ToolpathWorkspace, TheBestPlaceIsSearchedMarkedAndAccepted) {
 }
 
 TEST_F(ToolpathWorkspace, ASearchInVainSaysThatNoPlaceIsInReach) {
-    person_.workshop().edit("Enlarge the part",
-                            [](project::Project& p) {
-                                for (geometry::ControlNet& net : p.surface.patches) {
-                                    for (Vec3& point : net.points) {
-                                        point *= 20.0;
-                                    }
-                                }
-                            },
-                            {});
+    person_.app().edit("Enlarge the part",
+                       [](project::Project& p) {
+                           for (geometry::ControlNet& net : p.surface.patches) {
+                               for (Vec3& point : net.points) {
+                                   point *= 20.0;
+                               }
+                           }
+                       },
+                       {});
     fold({"error", "strategy", "tool", "setup", "set_up_search"});
     person_.fill_in("inspector/set_up_search/places", "3");
-    person_.workshop().session().set_up.settings.nodes = 4;
+    person_.app().view_state().set_up.settings.nodes = 4;
     person_.click("inspector/set_up_search/set_up_search");
     person_.wait_idle();
     EXPECT_TRUE(person_.sees("inspector/set_up_search/failure"));
@@ -219,14 +217,14 @@ TEST_F(ToolpathWorkspace, ASearchInVainSaysThatNoPlaceIsInReach) {
 
 TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
     fold({"error", "strategy", "tool", "setup", "set_up_search"});
-    person_.workshop().session().set_up.settings.nodes = 5;
-    person_.workshop().session().set_up.settings.places = 5;
+    person_.app().view_state().set_up.settings.nodes = 5;
+    person_.app().view_state().set_up.settings.places = 5;
     person_.click("inspector/set_up_search/set_up_search");
     person_.wait_idle();
-    const toolpath::SetUpPlace best = person_.workshop().look().set_up_place();
+    const toolpath::SetUpPlace best = person_.app().look().set_up_place();
     const widgets::Rect map = person_.place("inspector/set_up_search/map");
     person_.click_at({map.x + 0.5F * map.w, map.y + 0.5F * map.h});
-    const toolpath::SetUpPlace marked = person_.workshop().look().set_up_place();
+    const toolpath::SetUpPlace marked = person_.app().look().set_up_place();
     EXPECT_NE(marked.head<2>(), best.head<2>());
     EXPECT_EQ(marked[2], best[2]);
     person_.click("inspector/set_up_search/set_up_accept");
@@ -234,15 +232,15 @@ TEST_F(ToolpathWorkspace, APlaceOnTheMapIsMarkedByAClick) {
 }
 
 TEST_F(ToolpathWorkspace, BothResultsOfAComparisonHaveTheirMarks) {
-    person_.workshop().edit("Change the tool",
-                            [](project::Project& p) {
-                                p.tool.cutter = CutterKind::ball;
-                                p.tool.diameter_mm = 60.0;
-                            },
-                            {});
+    person_.app().edit("Change the tool",
+                       [](project::Project& p) {
+                           p.tool.cutter = CutterKind::ball;
+                           p.tool.diameter_mm = 60.0;
+                       },
+                       {});
     person_.wait_idle();
     person_.choose("inspector/error/beside", "uniform");
-    const auto look = [&] { return person_.workshop().look(); };
+    const auto look = [&] { return person_.app().look(); };
     const auto right = plan().cut_of(look().project, look().shown().get());
     const auto left = plan().cut_of(look().project, plan().grid(GridMethod::uniform).evaluation.get());
     ASSERT_TRUE(left && right);
@@ -252,7 +250,7 @@ TEST_F(ToolpathWorkspace, BothResultsOfAComparisonHaveTheirMarks) {
     person_.keep("toolpath-beside-gouges");
     const render::Picture with_left = person_.picture_of("view/left/left");
     const render::Picture with_right = person_.picture_of("view/right/right");
-    person_.workshop().run("view.layer_gouges");
+    person_.app().run("view.layer_gouges");
     person_.frames(3);
     EXPECT_NE(person_.picture_of("view/left/left"), with_left);
     EXPECT_NE(person_.picture_of("view/right/right"), with_right);
@@ -264,34 +262,32 @@ TEST_F(ToolpathWorkspace, AnyTwoResultsStandBesideEachOtherInTheSameColours) {
     EXPECT_TRUE(person_.sees("view/right/right"));
     person_.keep("toolpath-beside");
     person_.click("inspector/error/view_keep_result");
-    ASSERT_TRUE(person_.workshop().session().kept);
-    EXPECT_TRUE(person_.workshop().session().beside.kept);
-    const auto kept = person_.workshop().session().kept->evaluation;
-    person_.workshop().edit(
-        "Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
+    ASSERT_TRUE(person_.app().view_state().kept);
+    EXPECT_TRUE(person_.app().view_state().compare_with.kept);
+    const auto kept = person_.app().view_state().kept->evaluation;
+    person_.app().edit("Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
     person_.wait_idle();
-    EXPECT_EQ(person_.workshop().session().kept->evaluation, kept);
-    EXPECT_NE(person_.workshop().look().shown(), kept);
+    EXPECT_EQ(person_.app().view_state().kept->evaluation, kept);
+    EXPECT_NE(person_.app().look().shown(), kept);
     person_.keep("toolpath-beside-machines");
     person_.choose("inspector/error/beside", "nothing");
     EXPECT_FALSE(person_.sees("view/left/left"));
 }
 
 TEST_F(ToolpathWorkspace, TwoSetUpsAreToldApartAndHaveTheSameLegendsAndMaps) {
-    person_.workshop().edit(
-        "Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
+    person_.app().edit("Choose the machine", [](project::Project& p) { p.machine.file = "ac-table"; }, {});
     person_.wait_idle();
-    person_.workshop().run("set_up.search");
+    person_.app().run("set_up.search");
     person_.wait_idle();
     person_.keep("toolpath-set-up-map");
     person_.click("inspector/error/view_keep_result");
-    person_.workshop().edit("Move the part on the table",
-                            [](project::Project& p) { p.machine.workpiece_offset = Vec3(12.5, 0.0, 30.0); },
-                            {});
+    person_.app().edit("Move the part on the table",
+                       [](project::Project& p) { p.machine.workpiece_offset = Vec3(12.5, 0.0, 30.0); },
+                       {});
     person_.wait_idle();
-    const auto& kept = *person_.workshop().session().kept;
-    EXPECT_NE(kept.place, person_.workshop().look().part_place());
-    EXPECT_EQ(person_.workshop().look().part_place(), "part at 12.5, 0, 30 mm");
+    const auto& kept = *person_.app().view_state().kept;
+    EXPECT_NE(kept.place, person_.app().look().part_place());
+    EXPECT_EQ(person_.app().look().part_place(), "part at 12.5, 0, 30 mm");
     for (const char* legend : {"view/legend", "view/set_up_legend"}) {
         const widgets::Rect place = person_.place(legend);
         for (const char* picture : {"view/left/left", "view/right/right"}) {
@@ -306,8 +302,8 @@ TEST_F(ToolpathWorkspace, TwoSetUpsAreToldApartAndHaveTheSameLegendsAndMaps) {
 TEST(SmallToolpath, LegendsLeaveMostOfTheViewFree) {
     Person person({1100, 700});
     person.open("assets/projects/two-bell.json");
-    person.workshop().run("view.toolpath");
-    person.workshop().run("set_up.search");
+    person.app().run("view.toolpath");
+    person.app().run("set_up.search");
     person.wait_idle();
     const widgets::Rect view = person.place("view");
     float covered = 0.0F;

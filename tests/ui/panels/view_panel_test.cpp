@@ -21,9 +21,9 @@ TEST(ViewPanel, ADragMovesTheControlPointAndOneUndoTakesItBack) {
     const Vec3 after = person.project().surface.patches[0].point(1, 2);
     EXPECT_GT((after - before).norm(), 1.0);
     EXPECT_EQ(person.project().surface.preset, "");
-    EXPECT_EQ(person.workshop().look().undo_title, "Move a control point");
+    EXPECT_EQ(person.app().look().undo_title, "Move a control point");
     person.wait_idle();
-    EXPECT_NE(person.workshop().look().plan->plan.surface->patch(first_patch).net().point(1, 2), before);
+    EXPECT_NE(person.app().look().plan->plan.surface->patch(first_patch).net().point(1, 2), before);
     person.press_key(render::Key::z, true);
     EXPECT_EQ(person.project().surface.patches[0].point(1, 2), before);
 }
@@ -32,8 +32,8 @@ TEST(ViewPanel, AClickSelectsThePointAndTheInspectorShowsIt) {
     Person person;
     person.open("assets/projects/dome.json");
     person.click("view/control_point(2,1)");
-    ASSERT_EQ(person.workshop().session().selected.size(), 1U);
-    EXPECT_EQ(person.workshop().session().selected[0], (ControlPointId{first_patch, 2, 1}));
+    ASSERT_EQ(person.app().view_state().selected.size(), 1U);
+    EXPECT_EQ(person.app().view_state().selected[0], (ControlPointId{first_patch, 2, 1}));
     person.fill_in("inspector/point/z", "80/2");
     EXPECT_DOUBLE_EQ(person.project().surface.patches[0].point(2, 1).z(), 40.0);
 }
@@ -42,9 +42,9 @@ TEST(ViewPanel, AMoveThatWasClickedIsWhereTheTimelineGoes) {
     Person person;
     person.open("assets/projects/dome.json");
     ActionQueue ask;
-    obey(viewport::GoToMove{100, 0.5}, person.workshop().look(), ask);
-    person.workshop().perform(ask);
-    const auto moment = person.workshop().look().moment();
+    obey(viewport::GoToMove{100, 0.5}, person.app().look(), ask);
+    person.app().perform(ask);
+    const auto moment = person.app().look().moment();
     ASSERT_TRUE(moment.has_value());
     EXPECT_EQ(moment->move, 100);
     EXPECT_NEAR(moment->fraction, 0.5, 1e-6);

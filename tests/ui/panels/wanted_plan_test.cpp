@@ -18,9 +18,9 @@ using test::Person;
 
 class WantedPlan : public testing::Test {
 protected:
-    [[nodiscard]] const plan::PublishedPlan& published() { return *person_.workshop().look().plan; }
+    [[nodiscard]] const plan::PublishedPlan& published() { return *person_.app().look().plan; }
     [[nodiscard]] std::shared_ptr<const plan::Evaluation> grid(GridMethod method) {
-        return person_.workshop().look().evaluation(method);
+        return person_.app().look().evaluation(method);
     }
     /// After F2, F3, ...
     void go_to(Key workspace) {
@@ -28,7 +28,7 @@ protected:
         person_.wait_idle();
     }
     void move_a_point() {
-        person_.workshop().edit(
+        person_.app().edit(
             "Move a point", [](project::Project& p) { p.surface.patches[0].point(1, 1).z() += 2.0; }, {});
         person_.wait_idle();
     }
@@ -52,7 +52,7 @@ TEST_F(WantedPlan, TheGridWorkspaceMakesThemAndAnEditKeepsThoseThatHold) {
     const auto program = published().plan.program;
     person_.press_key(Key::f3);
     person_.frames(1); // it asks
-    EXPECT_TRUE(person_.workshop().look().activity.busy || grid(GridMethod::elliptic));
+    EXPECT_TRUE(person_.app().look().activity.busy || grid(GridMethod::elliptic));
     EXPECT_TRUE(person_.sees("outline/stages/elliptic"));
     person_.wait_idle();
     EXPECT_TRUE(published().exact);
@@ -61,7 +61,7 @@ TEST_F(WantedPlan, TheGridWorkspaceMakesThemAndAnEditKeepsThoseThatHold) {
     ASSERT_NE(elliptic, nullptr);
     EXPECT_NE(published().plan.weight, nullptr);
     go_to(Key::f5);
-    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    person_.app().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
     person_.wait_idle();
     EXPECT_NE(published().plan.program, program);
     EXPECT_EQ(grid(GridMethod::elliptic), elliptic) << "the feed does not change it";
@@ -76,17 +76,17 @@ TEST_F(WantedPlan, AGridIsMadeWhereItIsShownFromAnotherWorkspace) {
     ASSERT_EQ(grid(GridMethod::elliptic), nullptr);
     EXPECT_TRUE(person_.sees("outline/stages/tracks"));
     EXPECT_FALSE(person_.sees("outline/stages/elliptic")) << "it would never get a figure";
-    person_.workshop().run("view.show_elliptic");
+    person_.app().run("view.show_elliptic");
     person_.wait_idle();
     ASSERT_NE(grid(GridMethod::elliptic), nullptr);
-    EXPECT_EQ(person_.workshop().look().shown(), grid(GridMethod::elliptic));
+    EXPECT_EQ(person_.app().look().shown(), grid(GridMethod::elliptic));
 }
 
 TEST_F(WantedPlan, TheTableSideBySideMakesWhatItCompares) {
     go_to(Key::f5);
     actions::ActionQueue ask;
-    ask.show([](actions::Session& session) { session.lower_tab_now() = actions::LowerTab::compare; });
-    person_.workshop().perform(ask);
+    ask.show([](actions::ViewState& view_state) { view_state.lower_tab_now() = actions::LowerTab::compare; });
+    person_.app().perform(ask);
     person_.wait_idle();
     EXPECT_NE(grid(GridMethod::elliptic), nullptr);
     EXPECT_TRUE(published().plan.grid(GridMethod::elliptic).estimated_time);
@@ -95,14 +95,14 @@ TEST_F(WantedPlan, TheTableSideBySideMakesWhatItCompares) {
 // A job may begin while grids are made that the program does not use.
 TEST_F(WantedPlan, TheProgramStaysReadyWhileMoreIsMade) {
     go_to(Key::f5);
-    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.app().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
     person_.wait_idle();
     person_.press_key(Key::f3);
     bool ready = true;
     do {
         person_.frames(1);
         ready = ready && published().program_exact;
-    } while (person_.workshop().look().activity.busy);
+    } while (person_.app().look().activity.busy);
     EXPECT_TRUE(ready);
     EXPECT_NE(grid(GridMethod::elliptic), nullptr);
 }
@@ -110,33 +110,29 @@ TEST_F(WantedPlan, TheProgramStaysReadyWhileMoreIsMade) {
 // Else the machine would run with the feed, the height or the path from before the edit.
 TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNeitherRunNorWritten) {
     go_to(Key::f6);
-    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.app().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
     person_.wait_idle();
-    ASSERT_TRUE(actions::program_ready(person_.workshop().look()).allowed);
-    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
-    EXPECT_EQ(actions::program_ready(person_.workshop().look()).reason,
-              "The program is still being computed.");
-    EXPECT_FALSE(person_.workshop()
-                     .catalogue()
-                     .find("file.write_program")
-                     .permission(person_.workshop().look())
-                     .allowed);
-    person_.workshop().edit("Go slower", [](project::Project& p) { p.program.feed_mm_per_min -= 50.0; }, {});
+    ASSERT_TRUE(actions::program_ready(person_.app().look()).allowed);
+    person_.app().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    EXPECT_EQ(actions::program_ready(person_.app().look()).reason, "The program is still being computed.");
+    EXPECT_FALSE(
+        person_.app().catalogue().find("file.write_program").permission(person_.app().look()).allowed);
+    person_.app().edit("Go slower", [](project::Project& p) { p.program.feed_mm_per_min -= 50.0; }, {});
     const auto file = person_.folder() / "old.ngc"; // a dialog for it was open during the edit
-    EXPECT_THROW(person_.workshop().write_program(file), Error);
+    EXPECT_THROW(person_.app().write_program(file), Error);
     EXPECT_FALSE(std::filesystem::exists(file));
     person_.wait_idle();
-    EXPECT_TRUE(actions::program_ready(person_.workshop().look()).allowed);
+    EXPECT_TRUE(actions::program_ready(person_.app().look()).allowed);
 }
 
 TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNotRunAfterACancelEither) {
     go_to(Key::f6);
-    person_.workshop().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
+    person_.app().edit("More nodes", [](project::Project& p) { p.grid.nu = p.grid.nv = 40; }, {});
     person_.wait_idle();
-    person_.workshop().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
-    person_.workshop().cancel_work();
+    person_.app().edit("Go faster", [](project::Project& p) { p.program.feed_mm_per_min += 100.0; }, {});
+    person_.app().cancel_work();
     person_.wait_idle();
-    const auto now = person_.workshop().look();
+    const auto now = person_.app().look();
     const bool is_new = now.plan->program_exact && now.plan->project.program == now.project.program;
     EXPECT_EQ(actions::program_ready(now).allowed, is_new); // it may have been there before the cancel
 }
@@ -144,36 +140,36 @@ TEST_F(WantedPlan, TheProgramFromBeforeAnEditIsNotRunAfterACancelEither) {
 // Of the grid from before the edit, or of one that is made quickly for a person who drags.
 TEST_F(WantedPlan, ACoarseProgramIsNotWritten) {
     go_to(Key::f6);
-    person_.workshop().edit("Elliptic",
-                            [](project::Project& p) {
-                                p.grid.method = GridMethod::elliptic;
-                                p.grid.nu = p.grid.nv = 45;
-                            },
-                            {});
+    person_.app().edit("Elliptic",
+                       [](project::Project& p) {
+                           p.grid.method = GridMethod::elliptic;
+                           p.grid.nu = p.grid.nv = 45;
+                       },
+                       {});
     person_.wait_idle();
-    person_.workshop().edit(
+    person_.app().edit(
         "Move a point", [](project::Project& p) { p.surface.patches[0].point(1, 1).z() += 2.0; }, {});
     bool coarse = false;
     do {
         person_.frames(1);
-        const auto now = person_.workshop().look();
+        const auto now = person_.app().look();
         if (now.listing() && !now.plan->program_exact && !now.plan->failure) {
             coarse = true;
             for (const char* const action : {"file.write_program", "machine.run"}) {
-                EXPECT_FALSE(person_.workshop().catalogue().find(action).permission(now).allowed) << action;
+                EXPECT_FALSE(person_.app().catalogue().find(action).permission(now).allowed) << action;
             }
-            EXPECT_THROW(person_.workshop().write_program(person_.folder() / "coarse.ngc"), Error);
+            EXPECT_THROW(person_.app().write_program(person_.folder() / "coarse.ngc"), Error);
         }
-    } while (person_.workshop().look().activity.busy);
+    } while (person_.app().look().activity.busy);
     EXPECT_TRUE(coarse);
 }
 
 TEST_F(WantedPlan, APlotOrAnArmInTheProjectKeepsNoProgramFromARun) {
     go_to(Key::f6);
-    person_.workshop().edit("Plot", [](project::Project& p) { p.plot.settings.safe_height += 1.0; }, {});
-    person_.workshop().edit("Arm", [](project::Project& p) { p.arm.program = "LINEAR"; }, {});
+    person_.app().edit("Plot", [](project::Project& p) { p.plot.settings.safe_height += 1.0; }, {});
+    person_.app().edit("Arm", [](project::Project& p) { p.arm.program = "LINEAR"; }, {});
     person_.wait_idle();
-    EXPECT_EQ(actions::program_ready(person_.workshop().look()).reason, "");
+    EXPECT_EQ(actions::program_ready(person_.app().look()).reason, "");
 }
 
 } // namespace

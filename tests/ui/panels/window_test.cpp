@@ -46,10 +46,10 @@ class EveryScreen : public ::testing::TestWithParam<Screen> {};
 
 TEST_P(EveryScreen, ShowsItsPanesInEveryWorkspaceWithoutCuttingAnyText) {
     Person person(GetParam().size);
-    person.workshop().session().theme = GetParam().theme;
+    person.app().view_state().theme = GetParam().theme;
     person.open(dome_project);
     for (const char* workspace : {"design", "grid", "toolpath", "program", "machine"}) {
-        person.workshop().run(std::string("view.") + workspace);
+        person.app().run(std::string("view.") + workspace);
         person.frames(3);
         EXPECT_EQ(cut_texts(person), "") << workspace;
         for (const char* path :
@@ -71,7 +71,7 @@ TEST(SmallWindow, KeepsItsButtonsItsTabsAndTheSpeedOfThePlayback) {
     Person person({1100, 700});
     person.open(dome_project);
     for (const char* workspace : {"design", "grid", "toolpath", "program", "machine", "plot", "arm"}) {
-        person.workshop().run(std::string("view.") + workspace);
+        person.app().run(std::string("view.") + workspace);
         person.frames(3);
         for (const char* path : {"menu/file_save", "menu/edit_undo", "menu/edit_redo", "menu/search"}) {
             EXPECT_LT(person.place(path).right(), person.place("emergency").x) << workspace << " " << path;
@@ -84,7 +84,7 @@ TEST(SmallWindow, KeepsItsButtonsItsTabsAndTheSpeedOfThePlayback) {
         }
         person.keep(std::string("small-") + workspace);
     }
-    person.workshop().run("view.program");
+    person.app().run("view.program");
     person.frames(3);
     person.choose("lower/tabs", "motion");
     person.keep("small-motion");
@@ -92,19 +92,19 @@ TEST(SmallWindow, KeepsItsButtonsItsTabsAndTheSpeedOfThePlayback) {
         person.click("lower/tabs/more");
     }
     person.click("lower/tabs/log");
-    EXPECT_EQ(person.workshop().session().lower_tab_now(), actions::LowerTab::log);
+    EXPECT_EQ(person.app().view_state().lower_tab_now(), actions::LowerTab::log);
     person.keep("small-log");
 }
 
-TEST(Workbench, ChangesWorkspaceByATab) {
+TEST(MainWindow, ChangesWorkspaceByATab) {
     Person person;
     person.click("menu/workspaces/grid");
-    EXPECT_EQ(person.workshop().session().workspace, Workspace::grid);
+    EXPECT_EQ(person.app().view_state().workspace, Workspace::grid);
     person.press_key(render::Key::f6);
-    EXPECT_EQ(person.workshop().session().workspace, Workspace::machine);
+    EXPECT_EQ(person.app().view_state().workspace, Workspace::machine);
 }
 
-TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
+TEST(MainWindow, KeepsATabOfTheLowerPaneForEachWorkspace) {
     Person person;
     person.open(dome_project);
     person.press_key(render::Key::f5);
@@ -118,7 +118,7 @@ TEST(Workbench, KeepsATabOfTheLowerPaneForEachWorkspace) {
     EXPECT_TRUE(person.sees("lower/compare"));
 }
 
-TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
+TEST(MainWindow, TheTableSideBySideScrollsBelowTheTabs) {
     Person person({1600, 1000});
     person.open(dome_project);
     person.press_key(render::Key::f4);
@@ -130,12 +130,12 @@ TEST(Workbench, TheTableSideBySideScrollsBelowTheTabs) {
     EXPECT_THAT(person.desktop().ui().cut_texts(), ::testing::IsEmpty());
 }
 
-TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
+TEST(MainWindow, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     Person person;
     person.open(dome_project);
     person.press_key(render::Key::f4);
     person.wait_idle();
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     ASSERT_TRUE(now.trajectory());
     const auto program = static_cast<std::size_t>(plan::program_grid(now.project));
     const std::vector<ErrorRow> rows = error_rows(now);
@@ -146,47 +146,47 @@ TEST(Workbench, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     }
 }
 
-TEST(Workbench, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
+TEST(MainWindow, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     Person person;
     person.open(dome_project);
     person.press_key(render::Key::f4);
     person.wait_idle();
-    auto now = person.workshop().look();
+    auto now = person.app().look();
     plan::PublishedPlan plan = *now.plan;
     const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic");
 
     plan::Evaluation carried = *plan.plan.grid(GridMethod::elliptic).evaluation;
-    carried.outcome.status = grid::ImproverStatus::running;
+    carried.outcome.status = grid::OptimiserStatus::running;
     plan.plan.grid(GridMethod::elliptic).evaluation =
         std::make_shared<const plan::Evaluation>(std::move(carried));
     now.plan = std::make_shared<const plan::PublishedPlan>(std::move(plan));
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic (preliminary)");
 }
 
-TEST(Workbench, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
+TEST(MainWindow, ATypedNumberChangesTheProjectAndUndoBringsTheOldOneBack) {
     Person person;
     person.click("menu/workspaces/grid");
     person.fill_in("inspector/grid/nu", "40/4");
     EXPECT_EQ(person.project().grid.nu, 10);
     person.wait_idle();
-    EXPECT_EQ(person.workshop().look().evaluation(GridMethod::uniform)->outcome.grid.nu(), 10);
+    EXPECT_EQ(person.app().look().evaluation(GridMethod::uniform)->outcome.grid.nu(), 10);
     person.press_key(render::Key::z, true);
     EXPECT_EQ(person.project().grid.nu, test::small_sample().grid.nu);
     person.press_key(render::Key::y, true);
     EXPECT_EQ(person.project().grid.nu, 10);
 }
 
-TEST(Workbench, RedoesByItsOtherKeyToo) {
+TEST(MainWindow, RedoesByItsOtherKeyToo) {
     Person person;
-    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    person.app().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
     person.press_key(render::Key::z, true);
     EXPECT_NE(person.project().grid.nv, 12);
     person.press_key(render::Key::z, true, true);
     EXPECT_EQ(person.project().grid.nv, 12);
 }
 
-TEST(Workbench, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
+TEST(MainWindow, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
     Person person;
     person.open(dome_project);
     person.click("menu/workspaces/grid");
@@ -200,7 +200,7 @@ TEST(Workbench, TakesAKeyInTheVeryFrameAfterATextFieldIsLeft) {
     EXPECT_EQ(person.project().grid.nu, 15);
 }
 
-TEST(Workbench, KeepsKeysFromShortcutsInTheVeryFrameInWhichAFieldGetsThem) {
+TEST(MainWindow, KeepsKeysFromShortcutsInTheVeryFrameInWhichAFieldGetsThem) {
     Person person;
     person.open(dome_project);
     person.click("menu/workspaces/grid");
@@ -211,10 +211,10 @@ TEST(Workbench, KeepsKeysFromShortcutsInTheVeryFrameInWhichAFieldGetsThem) {
     person.hold_button(false);
     person.hold_keys({});
     person.frames(2);
-    EXPECT_FALSE(person.workshop().session().playback.playing);
+    EXPECT_FALSE(person.app().view_state().playback.playing);
 }
 
-TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
+TEST(MainWindow, ANumberOutOfRangeIsRefusedWithItsReason) {
     Person person;
     person.click("menu/workspaces/grid");
     person.fill_in("inspector/grid/nu", "1");
@@ -225,33 +225,33 @@ TEST(Workbench, ANumberOutOfRangeIsRefusedWithItsReason) {
 }
 
 // T18.
-TEST(Workbench, AWatchedAdaptationStepsAndGoesBack) {
+TEST(MainWindow, AWatchedAdaptationStepsAndGoesBack) {
     Person person;
     person.click("menu/workspaces/grid");
     person.wait_idle(); // the grids to compare with
     person.click("inspector/watch/grid_adapt");
     person.click("inspector/watch/grid_pause");
     person.wait_idle();
-    const auto watched = person.workshop().look().watched;
+    const auto watched = person.app().look().watched;
     ASSERT_TRUE(watched && watched->state);
     EXPECT_EQ(watched->method, GridMethod::elliptic);
     EXPECT_LE(watched->state->of_best.mean, watched->state->start.mean);
     const int before = watched->state->iteration;
     person.click("inspector/watch/grid_step");
     person.wait_idle();
-    EXPECT_GE(person.workshop().look().watched->state->iteration, before);
+    EXPECT_GE(person.app().look().watched->state->iteration, before);
 }
 
-TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
+TEST(MainWindow, TheWholeChainIsWatchedAndChosen) {
     Person person;
-    person.workshop().run("view.grid");
+    person.app().run("view.grid");
     person.frames();
     person.fill_in("inspector/grid/nu", "8");
     person.fill_in("inspector/grid/nv", "8");
     person.wait_idle();
     person.click("inspector/watch/grid_chain");
     person.wait_idle();
-    const auto watched = person.workshop().look().watched;
+    const auto watched = person.app().look().watched;
     ASSERT_TRUE(watched && watched->state);
     EXPECT_EQ(watched->method, GridMethod::chain);
     EXPECT_LT(watched->state->of_best.mean, watched->state->start.mean);
@@ -259,73 +259,73 @@ TEST(Workbench, TheWholeChainIsWatchedAndChosen) {
     person.keep("whole-chain-watched");
     person.press_key(render::Key::f4);
     person.frames();
-    EXPECT_EQ(person.workshop().look().shown_name(), "Track optimiser") << "the chain is only watched";
+    EXPECT_EQ(person.app().look().shown_name(), "Track optimiser") << "the chain is only watched";
     person.press_key(render::Key::f3);
     person.frames();
     person.click("inspector/watch/grid_use_chain");
     person.wait_idle();
     EXPECT_EQ(person.project().grid.method, GridMethod::chain);
-    EXPECT_EQ(person.workshop().look().shown_name(), "Whole chain");
+    EXPECT_EQ(person.app().look().shown_name(), "Whole chain");
     EXPECT_FALSE(person.sees("inspector/watch/grid_use_chain"));
     EXPECT_TRUE(person.sees("outline/stages/chain"));
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     ASSERT_NE(now.evaluation(GridMethod::chain), nullptr);
     EXPECT_LT(now.evaluation(GridMethod::chain)->closest.mean,
               now.evaluation(GridMethod::uniform)->closest.mean);
     person.keep("whole-chain");
 }
 
-TEST(Workbench, StepsThroughTheProgramAndTheListingFollows) {
+TEST(MainWindow, StepsThroughTheProgramAndTheListingFollows) {
     Person person;
     person.open(dome_project);
-    person.workshop().run("play.forward");
-    person.workshop().run("play.forward");
+    person.app().run("play.forward");
+    person.app().run("play.forward");
     person.frames();
-    const auto now = person.workshop().look();
+    const auto now = person.app().look();
     EXPECT_GT(now.time(), 0.0);
     ASSERT_TRUE(now.moment().has_value());
     EXPECT_EQ(now.moment()->axes.size(), 5);
     EXPECT_GE(now.block(), 1);
     person.press_key(render::Key::left, true);
-    EXPECT_EQ(person.workshop().look().time(), 0.0);
+    EXPECT_EQ(person.app().look().time(), 0.0);
 }
 
-TEST(Workbench, PlaysUntilPaused) {
+TEST(MainWindow, PlaysUntilPaused) {
     Person person;
     person.open(dome_project);
     person.press_key(render::Key::space);
-    EXPECT_TRUE(person.workshop().session().playback.playing);
+    EXPECT_TRUE(person.app().view_state().playback.playing);
     person.frames(10);
-    const double time = person.workshop().look().time();
+    const double time = person.app().look().time();
     EXPECT_GT(time, 0.0);
     person.press_key(render::Key::space);
-    EXPECT_FALSE(person.workshop().session().playback.playing);
+    EXPECT_FALSE(person.app().view_state().playback.playing);
 }
 
-TEST(Workbench, RunsTheProgramOnTheVirtualMachineToItsEnd) {
+TEST(MainWindow, RunsTheProgramOnTheVirtualMachineToItsEnd) {
     Person person;
     person.open(dome_project);
-    person.workshop().session().machine_speed = 0.0;
+    person.app().view_state().machine_speed = 0.0;
     person.press_key(render::Key::f9); // goes to the machine, and no further
     person.wait_idle();
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::machine);
-    EXPECT_FALSE(person.workshop().look().job.outcome.has_value());
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::machine);
+    EXPECT_FALSE(person.app().look().job.outcome.has_value());
     person.press_key(render::Key::f9);
     person.wait_idle();
-    const auto job = person.workshop().look().job;
+    const auto job = person.app().look().job;
     ASSERT_TRUE(job.outcome.has_value()) << (job.failure ? job.failure->message : "no outcome");
     EXPECT_EQ(job.outcome->end, jobs::JobEnd::done);
     EXPECT_EQ(job.outcome->executed_blocks, job.outcome->blocks);
     EXPECT_TRUE(std::filesystem::exists(job.outcome->log_file));
 }
 
-TEST(Workbench, FindsAnActionByAFewLetters) {
+TEST(MainWindow, FindsAnActionByAFewLetters) {
     Person person;
     person.press_key(render::Key::k, true);
     ASSERT_TRUE(person.sees("search/letters"));
     person.type("fourv");
     person.press_key(render::Key::enter);
-    EXPECT_TRUE(person.workshop().session().four_views);
+    EXPECT_TRUE(person.app().view_state().four_views);
 }
 
 /// What the list of commands shows first for these letters.
@@ -336,7 +336,7 @@ std::string first_command(Person& person, std::string_view letters) {
     person.frames(2);
     std::string first;
     float top = 1e9F;
-    for (const auto& action : person.workshop().catalogue().all()) {
+    for (const auto& action : person.app().catalogue().all()) {
         const std::string path = "search/" + std::string(action->info().id);
         if (person.sees(path) && person.place(path).y < top) {
             top = person.place(path).y;
@@ -347,7 +347,7 @@ std::string first_command(Person& person, std::string_view letters) {
     return first;
 }
 
-TEST(Workbench, FindsActionsByTheWordsThatPeopleUse) {
+TEST(MainWindow, FindsActionsByTheWordsThatPeopleUse) {
     Person person;
     EXPECT_EQ(first_command(person, "zoom"), "view.fit");
     EXPECT_EQ(first_command(person, "degree"), "view.design");
@@ -359,58 +359,58 @@ TEST(Workbench, FindsActionsByTheWordsThatPeopleUse) {
 }
 
 // Ctrl+T taught a point behind the open list, F9 went to the machine, Esc dropped the selection.
-TEST(Workbench, NoKeyActsBehindTheListOfCommandsButThoseThatStop) {
+TEST(MainWindow, NoKeyActsBehindTheListOfCommandsButThoseThatStop) {
     Person person;
-    person.workshop().session().workspace = actions::Workspace::arm;
+    person.app().view_state().workspace = actions::Workspace::arm;
     person.frames(3);
     const auto taught = person.project().arm.points.size();
-    person.workshop().session().selected = {{geometry::PatchId{0}, 1, 1}};
+    person.app().view_state().selected = {{geometry::PatchId{0}, 1, 1}};
     person.press_key(render::Key::k, true);
     ASSERT_TRUE(person.sees("search/letters"));
     person.press_key(render::Key::t, true);
     person.press_key(render::Key::f3);
     person.press_key(render::Key::f9);
     EXPECT_EQ(person.project().arm.points.size(), taught);
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::arm);
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::arm);
     EXPECT_TRUE(person.sees("search/letters"));
     person.press_key(render::Key::escape);
     EXPECT_FALSE(person.sees("search/letters"));
-    EXPECT_EQ(person.workshop().session().selected.size(), 1U);
+    EXPECT_EQ(person.app().view_state().selected.size(), 1U);
     person.press_key(render::Key::f3);
-    EXPECT_EQ(person.workshop().session().workspace, actions::Workspace::grid);
+    EXPECT_EQ(person.app().view_state().workspace, actions::Workspace::grid);
 }
 
-TEST(Workbench, AMachineStopsByItsKeyBehindTheListOfCommands) {
+TEST(MainWindow, AMachineStopsByItsKeyBehindTheListOfCommands) {
     Person person;
     person.open(dome_project);
-    person.workshop().session().workspace = actions::Workspace::machine;
-    person.workshop().session().machine_speed = 1.0;
+    person.app().view_state().workspace = actions::Workspace::machine;
+    person.app().view_state().machine_speed = 1.0;
     person.wait_idle();
-    person.workshop().run("machine.run");
+    person.app().run("machine.run");
     person.frames(3);
-    ASSERT_TRUE(person.workshop().look().job.running);
+    ASSERT_TRUE(person.app().look().job.running);
     person.press_key(render::Key::k, true);
     ASSERT_TRUE(person.sees("search/letters"));
     person.press_key(render::Key::f8);
-    EXPECT_TRUE(person.live_until([&] { return !person.workshop().look().job.running; }));
+    EXPECT_TRUE(person.live_until([&] { return !person.app().look().job.running; }));
 }
 
-TEST(Workbench, SavesOpensAndTellsAboutABrokenFile) {
+TEST(MainWindow, SavesOpensAndTellsAboutABrokenFile) {
     Person person;
-    person.workshop().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
+    person.app().edit("Change the grid", [](project::Project& p) { p.grid.nv = 12; }, {});
     const auto file = person.folder() / "mine.json";
-    person.workshop().save(file);
-    EXPECT_FALSE(person.workshop().look().changed());
+    person.app().save(file);
+    EXPECT_FALSE(person.app().look().changed());
     EXPECT_EQ(project::read_project(file).grid.nv, 12);
     write_file(file, "{ \"format\": ");
     actions::ActionQueue ask;
     ask.open_file(file);
-    person.workshop().perform(ask);
+    person.app().perform(ask);
     EXPECT_EQ(person.project().grid.nv, 12);
-    EXPECT_NE(person.workshop().session().log.back().find("mine.json"), std::string::npos);
+    EXPECT_NE(person.app().view_state().log.back().find("mine.json"), std::string::npos);
 }
 
-TEST(Workbench, DrawsNothingNewWhenIdle) {
+TEST(MainWindow, DrawsNothingNewWhenIdle) {
     Person person;
     person.open(dome_project);
     person.hover({640.0F, 300.0F});
@@ -420,11 +420,11 @@ TEST(Workbench, DrawsNothingNewWhenIdle) {
     EXPECT_EQ(before, person.picture());
 }
 
-TEST(Workbench, HasALightThemeToo) {
+TEST(MainWindow, HasALightThemeToo) {
     Person person;
     person.open(dome_project);
     const render::Picture dark = person.picture();
-    person.workshop().run("view.theme");
+    person.app().run("view.theme");
     person.frames(2);
     EXPECT_NE(dark, person.picture());
 }

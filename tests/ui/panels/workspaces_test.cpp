@@ -42,7 +42,7 @@ TEST(WorkspaceViews, EachIsTurnedForItself) {
     person.press_key(grid_key);
     person.frames(3);
     EXPECT_EQ(pose(person), grid);
-    person.workshop().run("view.arm");
+    person.app().run("view.arm");
     person.frames(3);
     person.press_key(machine_key);
     person.frames(3);
@@ -56,7 +56,7 @@ TEST(WorkspaceViews, FOfOneLeavesTheOthersAlone) {
     person.frames(3);
     const render::CameraPose grid = pose(person);
     person.press_key(design_key);
-    person.workshop().run("view.fit");
+    person.app().run("view.fit");
     person.frames(3);
     person.press_key(grid_key);
     person.frames(3);
@@ -83,7 +83,7 @@ TEST(WorkspaceViews, AnotherProjectIsFittedInAllThatShowIt) {
 TEST(WorkspaceViews, TheDrawingOfAPlotIsSeenFromAboveAndNothingElse) {
     Person person;
     const render::CameraPose design = pose(person);
-    person.workshop().receive({"assets/samples/plot/hatched-sign.plt"});
+    person.app().receive({"assets/samples/plot/hatched-sign.plt"});
     person.wait_idle();
     person.wait_idle();
     EXPECT_EQ(pose(person).projection, render::Projection::orthographic);

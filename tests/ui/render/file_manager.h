@@ -15,7 +15,7 @@ public:
     FileManager& operator=(const FileManager&) = delete;
     ~FileManager();
 
-    /// Lets go over the window with this title. `uris`: one a line, each line ended by CR LF.
+    /// Lets go over the window with this title. `uris`: one per line, each line ended by CR LF.
     void drop(const std::string& title, const std::string& uris);
     /// Hands over what it dropped when it is asked for it; true once the other has said that it has it.
     [[nodiscard]] bool answers_until_taken();

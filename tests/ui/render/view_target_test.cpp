@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "tests/ui/render/clear_screen.h"
 #include "ui/render/offscreen_context.h"
-#include "ui/render/program.h"
+#include "ui/render/shader_program.h"
 
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
@@ -33,14 +33,14 @@ TEST(ViewTarget, GivesTheDrawingBackToWhatWasBound) {
 /// Left of the line through the corners white, right of it black: edges that are smooth have greys.
 int greys(Edges edges) {
     const OffscreenContext context({4, 4});
-    const Program program("#version 330 core\n"
-                          "void main() {\n"
-                          "    vec2 corner[3] = vec2[](vec2(-1.0), vec2(-1.0, 1.0), vec2(0.9, 1.0));\n"
-                          "    gl_Position = vec4(corner[gl_VertexID], 0.0, 1.0);\n"
-                          "}\n",
-                          "#version 330 core\n"
-                          "out vec4 color;\n"
-                          "void main() { color = vec4(1.0); }\n");
+    const ShaderProgram program("#version 330 core\n"
+                                "void main() {\n"
+                                "    vec2 corner[3] = vec2[](vec2(-1.0), vec2(-1.0, 1.0), vec2(0.9, 1.0));\n"
+                                "    gl_Position = vec4(corner[gl_VertexID], 0.0, 1.0);\n"
+                                "}\n",
+                                "#version 330 core\n"
+                                "out vec4 color;\n"
+                                "void main() { color = vec4(1.0); }\n");
     const VertexArray nothing;
     ViewTarget target(4);
     target.begin({40, 30}, edges);

@@ -51,7 +51,7 @@ TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
         {7,
          9,
          false,
-         {.depth = 0.25, .uv = {0.5, 0.5}, .position = scene.workpiece->patch.position(0.5, 0.5)}});
+         {.depth = 0.25, .uv = {0.5, 0.5}, .position = scene.cutting_setup->patch.position(0.5, 0.5)}});
     scene.cut = std::make_shared<const plan::CutStudy>(study);
     EXPECT_EQ(count(picture(scene, view), colors.danger), 0);
     scene.layers.gouges = true;
@@ -94,7 +94,7 @@ TEST_F(CutLayers, TheSetUpsMapStandsBesideThePart) {
     plan::SetUpResult result;
     result.study.emplace();
     toolpath::SetUpMap& map = result.study->map;
-    const Vec3 now = scene.workpiece->machine.description().workpiece_offset;
+    const Vec3 now = scene.cutting_setup->machine.description().workpiece_offset;
     map.x = {now.x() - 20.0, now.x(), now.x() + 20.0};
     map.y = {now.y() - 20.0, now.y(), now.y() + 20.0};
     map.costs = {3.0, 2.0, 3.0, 2.0, 1.0, 2.0, 3.0, 2.0, std::numeric_limits<double>::infinity()};
@@ -116,7 +116,7 @@ TEST_F(CutLayers, TheMachinesSolidsMoveWithItsAxes) {
     const render::View view = look_at(scene);
     const Picture boxes = picture(scene, view);
     std::vector<geometry::SolidBody> bodies;
-    for (const geometry::PlacedBody& placed : kinematics::machine_solids(scene.workpiece->machine)) {
+    for (const geometry::PlacedBody& placed : kinematics::machine_solids(scene.cutting_setup->machine)) {
         bodies.push_back(placed.body);
     }
     scene.machine_solids = std::make_shared<const std::vector<geometry::SolidBody>>(bodies);

@@ -75,7 +75,7 @@ TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
     const render::View view = look_at(scene);
     const Picture with = picture(scene, view);
     const Picture without = picture(only(all, bare_view), view);
-    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    const Spot middle = spot(view, scene.cutting_setup->patch.position(0.5, 0.5));
     EXPECT_NE(with.at(middle.x, middle.y), without.at(middle.x, middle.y));
     EXPECT_EQ(with.at(3, 3), without.at(3, 3));
     EXPECT_EQ(with.at(636, 476), without.at(636, 476));
@@ -128,9 +128,9 @@ TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
     const Scene all = test::scene_of(test::dome, ViewKind::error);
     const render::View view = look_at(all, render::StandardView::top);
     Scene scene = only(all, {.surface = false, .error_surface = true, .floor = false, .origin = false});
-    plan::Workpiece made = *scene.workpiece;
+    plan::CuttingSetup made = *scene.cutting_setup;
     made.trim = {{test::rectangle(0.0, 0.0, 1.0, 1.0), test::circle({0.5, 0.5}, 0.2, 96)}};
-    scene.workpiece = std::make_shared<const plan::Workpiece>(made);
+    scene.cutting_setup = std::make_shared<const plan::CuttingSetup>(made);
     const Picture empty = picture(only(scene, bare_view), view);
     for (const bool bent : {false, true}) {
         scene.shown = test::evaluation(made, bent ? test::bent_grid(12) : grid::Grid::uniform(12, 12));
@@ -157,7 +157,7 @@ TEST_F(LayersTest, GridNodesLieOnTheSurface) {
     for (const auto& [i, j] : {std::pair{3, 4}, std::pair{7, 2}, std::pair{9, 9}}) {
         const Vec2& uv = grid.node(i, j);
         EXPECT_TRUE(
-            shows(seen, spot(view, scene.workpiece->patch.position(uv.x(), uv.y())), colors.handle, 1));
+            shows(seen, spot(view, scene.cutting_setup->patch.position(uv.x(), uv.y())), colors.handle, 1));
     }
 }
 
@@ -166,18 +166,19 @@ TEST_F(LayersTest, AnAdaptationOnItsWayTakesThePlaceOfTheGrid) {
         only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const grid::Grid bent = test::bent_grid(12);
-    scene.watched = std::make_shared<const grid::ImproverState>(grid::ImproverState{
+    scene.watched = std::make_shared<const grid::OptimiserState>(grid::OptimiserState{
         .current = bent.array(), .best = bent, .start = {}, .now = {}, .of_best = {}, .note = {}});
     const Picture seen = picture(scene, view);
     const Vec2& uv = bent.node(3, 4);
-    EXPECT_TRUE(shows(seen, spot(view, scene.workpiece->patch.position(uv.x(), uv.y())), colors.handle, 1));
+    EXPECT_TRUE(
+        shows(seen, spot(view, scene.cutting_setup->patch.position(uv.x(), uv.y())), colors.handle, 1));
 }
 
 TEST_F(LayersTest, AFineGridLeavesTheSurfaceToBeSeenAndShowsMoreLinesFromNear) {
     Scene scene =
         only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
     const grid::Grid fine = grid::Grid::uniform(500, 500);
-    scene.watched = std::make_shared<const grid::ImproverState>(grid::ImproverState{
+    scene.watched = std::make_shared<const grid::OptimiserState>(grid::OptimiserState{
         .current = fine.array(), .best = fine, .start = {}, .now = {}, .of_best = {}, .note = {}});
     Scene bare = scene;
     bare.layers.grid = false;
@@ -205,7 +206,7 @@ TEST_F(LayersTest, AFineGridLeavesTheSurfaceToBeSeenAndShowsMoreLinesFromNear) {
 TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInIt) {
     Scene scene = only(test::scene_of(test::dome, ViewKind::design),
                        {.surface_lines = true, .deviation = true, .floor = false, .origin = false});
-    const geometry::Mesh mesh = geometry::tessellate(scene.workpiece->patch, 60, 60);
+    const geometry::Mesh mesh = geometry::tessellate(scene.cutting_setup->patch, 60, 60);
     plan::ReferenceMesh reference;
     reference.fitted.points = mesh.positions;
     reference.fitted.triangles = mesh.triangles;
@@ -219,7 +220,7 @@ TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInI
     const Picture without = picture(bare, view);
     test::keep(with, "deviation-lines");
     int lines = 0, holes = 0;
-    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    const Spot middle = spot(view, scene.cutting_setup->patch.position(0.5, 0.5));
     for (int y = middle.y; y < middle.y + 100; ++y) {
         for (int x = middle.x - 60; x < middle.x + 60; ++x) {
             const int green = with.at(x, y)[1], before = without.at(x, y)[1];
@@ -236,7 +237,7 @@ TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInI
 Vec3 middle_of(const Scene& scene, std::size_t move) {
     const auto& points = scene.shown->toolpath.points;
     const Vec2 uv = 0.5 * (points[move].origin.uv + points[move + 1].origin.uv);
-    return scene.workpiece->patch.position(uv.x(), uv.y());
+    return scene.cutting_setup->patch.position(uv.x(), uv.y());
 }
 
 TEST_F(LayersTest, ThePathRunsOverTheSurfaceBetweenItsPoints) {
@@ -272,7 +273,7 @@ TEST_F(LayersTest, ThePathLeavesTheSurfaceToBeSeenHoweverSmallThePart) {
                                    .fitted(view().outline(), render::aspect(size()))
                                    .zoomed(12.0, {320.0, 240.0}, size()); // tracks are about 3 px apart
     const render::View seen = far.view(size(), view().depth_range());
-    const Spot middle = spot(seen, scene.workpiece->patch.position(0.5, 0.5));
+    const Spot middle = spot(seen, scene.cutting_setup->patch.position(0.5, 0.5));
     const double part = covered(picture(scene, seen), picture(bare, seen), middle, colors.path.b, 8);
     EXPECT_GT(part, 0.1);
     EXPECT_LT(part, 0.5);
@@ -293,7 +294,7 @@ TEST_F(LayersTest, WhatIsStillToComeIsDim) {
 /// Where the machine really is half way through a move.
 Vec3 actual_middle_of(const Scene& scene, std::size_t move) {
     const auto& positions = scene.shown->axes.positions;
-    return toolpath::actual_pose(scene.workpiece->machine, positions[move], positions[move + 1], 0.5).tip;
+    return toolpath::actual_pose(scene.cutting_setup->machine, positions[move], positions[move + 1], 0.5).tip;
 }
 
 TEST_F(LayersTest, TheActualPathHasTheColourOfItsError) {
@@ -326,7 +327,7 @@ TEST_F(LayersTest, TheSurfaceCanCarryTheErrors) {
     scene.layers.error_surface = true;
     const Picture colored = picture(scene, view);
     test::keep(colored, "layers-error-surface");
-    const Spot middle = spot(view, scene.workpiece->patch.position(0.5, 0.5));
+    const Spot middle = spot(view, scene.cutting_setup->patch.position(0.5, 0.5));
     EXPECT_NE(plain.at(middle.x, middle.y), colored.at(middle.x, middle.y));
     EXPECT_EQ(plain.at(3, 3), colored.at(3, 3));
 }
@@ -345,7 +346,7 @@ TEST_F(LayersTest, TheWeightColoursTheSurfaceByItsValue) {
     scene.layers.weight = true;
     const Picture seen = picture(scene, view);
     const auto yellow = [&](double u) {
-        const Spot at = spot(view, scene.workpiece->patch.position(u, 0.5));
+        const Spot at = spot(view, scene.cutting_setup->patch.position(u, 0.5));
         const Pixel& pixel = seen.at(at.x, at.y);
         EXPECT_NE(pixel, plain.at(at.x, at.y));
         return static_cast<int>(pixel[0]) - static_cast<int>(pixel[2]); // cividis goes from blue to yellow
@@ -383,7 +384,7 @@ TEST_F(LayersTest, TheToolStandsOnItsTip) {
     const Picture without = picture(scene, view);
     scene.now = test::half_way(scene);
     const Picture with = picture(scene, view);
-    const geometry::ToolPose pose = kinematics::forward(scene.workpiece->machine, scene.now->axes);
+    const geometry::ToolPose pose = kinematics::forward(scene.cutting_setup->machine, scene.now->axes);
     const Spot in_tool = spot(view, pose.tip + 12.0 * pose.axis);
     const Spot below = spot(view, pose.tip - 6.0 * pose.axis);
     EXPECT_NE(with.at(in_tool.x, in_tool.y), without.at(in_tool.x, in_tool.y));
@@ -433,8 +434,8 @@ TEST_F(LayersTest, TheMachineStandsWhereItsAxesAre) {
 TEST_F(LayersTest, ThePartOnTheTableTurnsWithIt) {
     Scene scene = test::scene_of(test::two_bell, ViewKind::machine);
     scene.now = test::half_way(scene);
-    const Vec3 middle = scene.workpiece->patch.position(0.5, 0.5);
-    const Frame m_T_w = kinematics::m_T_w(scene.workpiece->machine, scene.now->axes);
+    const Vec3 middle = scene.cutting_setup->patch.position(0.5, 0.5);
+    const Frame m_T_w = kinematics::m_T_w(scene.cutting_setup->machine, scene.now->axes);
     const render::View view = look_at(scene);
     Scene bare = scene;
     bare.layers = {.surface = false, .machine = true, .floor = false, .origin = false};

@@ -150,7 +150,7 @@ TEST(PickMove, FindsEachMoveAtItsMiddle) {
     const auto& points = scene.shown->toolpath.points;
     for (const std::size_t move : {0U, 17U, 64U, 130U}) {
         const Vec2 uv = 0.5 * (points[move].origin.uv + points[move + 1].origin.uv);
-        const Vec3 middle = scene.workpiece->patch.position(uv.x(), uv.y());
+        const Vec3 middle = scene.cutting_setup->patch.position(uv.x(), uv.y());
         const auto hit = pick_move(scene, view, pixel_of(view, middle), 4.0, std::nullopt, 0.0);
         ASSERT_TRUE(hit) << move;
         EXPECT_EQ(hit->move, static_cast<int>(move));

@@ -45,7 +45,7 @@ TEST(PictureFacts, NameProjectMachineAndSingularPoints) {
     const auto dome = test::planned(test::dome, "My dome");
     const PictureFacts facts = picture_facts(dome.project, dome.plan, ViewKind::grid);
     EXPECT_EQ(facts.title, "My dome");
-    EXPECT_NE(facts.subtitle.find(dome.plan.workpiece->machine.name()), std::string::npos);
+    EXPECT_NE(facts.subtitle.find(dome.plan.cutting_setup->machine.name()), std::string::npos);
     const std::string count = std::to_string(dome.plan.singular_points.size()) + " singular point";
     EXPECT_NE(facts.subtitle.find(count), std::string::npos);
 }

@@ -60,7 +60,7 @@ TEST(RenderView, DrawsTheSameBytesTwice) {
 TEST(RenderView, TheMachineHasTheBodiesOfItsFile) {
     const auto dome = test::planned({"dome", "ac-table", 20});
     const auto solids =
-        kinematics::read_machine_solids("assets/machines/ac-table.json", dome.plan.workpiece->machine);
+        kinematics::read_machine_solids("assets/machines/ac-table.json", dome.plan.cutting_setup->machine);
     ASSERT_TRUE(solids && !solids->empty());
     const Picture boxes = render_view(dome.project, dome.plan, ViewKind::machine, usual, Theme::dark);
     const Picture bodies =

@@ -21,11 +21,11 @@ inline Planned planned(const Part& part, std::string name = "Dome") {
     made.project.name = std::move(name);
     made.project.grid.nu = made.project.grid.nv = part.nodes;
     made.plan.surface = scene.surface;
-    made.plan.workpiece = scene.workpiece;
+    made.plan.cutting_setup = scene.cutting_setup;
     made.plan.singular_points = scene.singular_points;
     made.plan.grid(project::GridMethod::uniform).evaluation = scene.shown;
     made.plan.grid(project::GridMethod::tracks).evaluation =
-        evaluation(*scene.workpiece, bent_grid(part.nodes));
+        evaluation(*scene.cutting_setup, bent_grid(part.nodes));
     return made;
 }
 

@@ -42,9 +42,9 @@ TEST(SceneFrame, IsTheWorkpiecesUnlessTheMachineIsShown) {
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(Frame::Identity()));
     scene.layers.machine = true;
     scene.now = test::half_way(scene);
-    const Frame expected = kinematics::m_T_w(scene.workpiece->machine, scene.now->axes);
+    const Frame expected = kinematics::m_T_w(scene.cutting_setup->machine, scene.now->axes);
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(expected));
-    scene.workpiece = nullptr;
+    scene.cutting_setup = nullptr;
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(Frame::Identity()));
 }
 
@@ -55,7 +55,7 @@ TEST(PathView, ShowsAPlaceOnThePartWhereTheMachineHasBroughtIt) {
     view.view[3] = {0.0, 0.0, -500.0, 1.0};
     view.size = {640, 480};
     const Vec3 on_part(3.0, -4.0, 5.0);
-    const Vec3 in_scene = kinematics::m_T_w(scene.workpiece->machine, scene.now->axes) * on_part;
+    const Vec3 in_scene = kinematics::m_T_w(scene.cutting_setup->machine, scene.now->axes) * on_part;
     const auto expected = render::project(view, render::to_glm(in_scene));
     const auto found = render::project(path_view(view, scene), render::to_glm(on_part));
     ASSERT_TRUE(expected && found);

@@ -21,7 +21,7 @@ struct Part {
 inline const Part dome{};
 inline const Part two_bell{"two-bell", "ac-table", 12};
 
-inline plan::Workpiece workpiece(const Part& part) {
+inline plan::CuttingSetup cutting_setup(const Part& part) {
     return {.patch = geometry::surface_preset(part.preset).make().patch(geometry::PatchId{0}),
             .machine = machine(part.machine)};
 }
@@ -41,21 +41,22 @@ inline grid::Grid bent_grid(int nodes) {
     return grid::Grid(array);
 }
 
-inline std::shared_ptr<const plan::Evaluation> evaluation(const plan::Workpiece& workpiece, grid::Grid grid) {
+inline std::shared_ptr<const plan::Evaluation> evaluation(const plan::CuttingSetup& cutting_setup,
+                                                          grid::Grid grid) {
     return std::make_shared<const plan::Evaluation>(
-        plan::evaluate(workpiece, {.grid = std::move(grid), .note = {}}, {8}, Progress()));
+        plan::evaluate(cutting_setup, {.grid = std::move(grid), .note = {}}, {8}, Progress()));
 }
 
 /// Everything there is, on the uniform grid.
 inline viewport::Scene scene_of(const Part& part, viewport::ViewKind kind) {
     viewport::Scene scene;
-    const plan::Workpiece made = workpiece(part);
+    const plan::CuttingSetup made = cutting_setup(part);
     scene.layers = viewport::layers_of(kind);
     scene.surface = std::make_shared<const geometry::Surface>(geometry::surface_preset(part.preset).make());
     scene.singular_points = toolpath::singular_points(made.patch, made.machine);
     scene.shown = evaluation(made, grid::Grid::uniform(part.nodes, part.nodes));
     scene.start = scene.shown;
-    scene.workpiece = std::make_shared<const plan::Workpiece>(made);
+    scene.cutting_setup = std::make_shared<const plan::CuttingSetup>(made);
     return scene;
 }
 

@@ -268,7 +268,7 @@ TEST_F(ViewportTest, GoesToTheMoveThatIsClicked) {
     frame();
     const auto& points = scene.shown->toolpath.points;
     const Vec2 uv = 0.75 * points[50].origin.uv + 0.25 * points[51].origin.uv;
-    const Vec3 place = scene.workpiece->patch.position(uv.x(), uv.y());
+    const Vec3 place = scene.cutting_setup->patch.position(uv.x(), uv.y());
     const render::View view = viewport().camera().view(size(), {});
     const glm::dvec2 pixel = render::project(view, render::to_glm(place)).value().pixel;
     click(static_cast<float>(pixel.x), static_cast<float>(pixel.y));
@@ -279,7 +279,7 @@ TEST_F(ViewportTest, GoesToTheMoveThatIsClicked) {
 
 TEST_F(ViewportTest, TellsThePlaceUnderTheMouse) {
     show(ViewKind::error, test::two_bell);
-    const Vec3 place = scene.workpiece->patch.position(0.4, 0.3);
+    const Vec3 place = scene.cutting_setup->patch.position(0.4, 0.3);
     const render::View view = viewport().camera().view(size(), {});
     const glm::dvec2 pixel = render::project(view, render::to_glm(place)).value().pixel;
     move(static_cast<float>(pixel.x), static_cast<float>(pixel.y));

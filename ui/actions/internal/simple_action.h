@@ -10,20 +10,20 @@ namespace millwright::actions {
 
 class SimpleAction final : public Action {
 public:
-    using Allowed = widgets::Permission (*)(const Workbench&);
-    using Does = void (*)(Hands&);
-    using IsOn = bool (*)(const Workbench&);
+    using Allowed = widgets::Permission (*)(const FrameState&);
+    using Does = void (*)(ActionContext&);
+    using IsOn = bool (*)(const FrameState&);
 
     /// `on` is null for what is no switch.
     SimpleAction(const ActionInfo& info, Allowed allowed, Does does, IsOn on)
         : info_(info), allowed_(allowed), does_(does), is_on_(on) {}
 
     [[nodiscard]] const ActionInfo& info() const override { return info_; }
-    [[nodiscard]] widgets::Permission permission(const Workbench& now) const override {
+    [[nodiscard]] widgets::Permission permission(const FrameState& now) const override {
         return allowed_(now);
     }
-    [[nodiscard]] bool is_on(const Workbench& now) const override { return is_on_ && is_on_(now); }
-    void run(Hands& hands) const override { does_(hands); }
+    [[nodiscard]] bool is_on(const FrameState& now) const override { return is_on_ && is_on_(now); }
+    void run(ActionContext& context) const override { does_(context); }
 
 private:
     ActionInfo info_;
@@ -34,7 +34,7 @@ private:
 
 using Actions = std::vector<std::unique_ptr<Action>>;
 
-inline widgets::Permission always(const Workbench&) {
+inline widgets::Permission always(const FrameState&) {
     return {};
 }
 

@@ -1,7 +1,7 @@
 // From what settings say about themselves to fields of the inspector, and from catalogue actions to buttons.
 #pragma once
 
-#include "core/project/settings.h"
+#include "core/project/setting_tables.h"
 #include "ui/panels/panel.h"
 #include "ui/widgets/field_info.h"
 
@@ -73,7 +73,7 @@ void choice_field(Ui& ui,
 
 /// A button for a catalogue action: label, icon, tip and permission are the action's.
 void action_button(Ui& ui,
-                   const Workbench& now,
+                   const FrameState& now,
                    ActionQueue& ask,
                    const actions::Catalogue& catalogue,
                    std::string_view action_id,

@@ -8,10 +8,10 @@
 namespace millwright::panels {
 
 /// The line (from 0) at which the motion stands; -1 where there is none.
-[[nodiscard]] std::ptrdiff_t current_line(const Workbench& now);
+[[nodiscard]] std::ptrdiff_t current_line(const FrameState& now);
 
 /// Makes `line` (from 0) the current one: the motion goes to where it begins.
-void go_to_line(const Workbench& now, ActionQueue& ask, std::ptrdiff_t line);
+void go_to_line(const FrameState& now, ActionQueue& ask, std::ptrdiff_t line);
 
 /// The motion goes to `time`, s.
 void go_to_time(ActionQueue& ask, double time);

@@ -33,14 +33,14 @@ on_surface(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& 
 }
 
 std::vector<Vec3>
-actual_tips(const plan::Workpiece& workpiece, const plan::Evaluation& shown, int move, int steps) {
+actual_tips(const plan::CuttingSetup& cutting_setup, const plan::Evaluation& shown, int move, int steps) {
     const auto from = static_cast<std::size_t>(move);
     const kinematics::AxisPositions& a = shown.axes.positions[from];
     const kinematics::AxisPositions& b = shown.axes.positions[from + 1];
-    const double turn = kinematics::rotary_travel(workpiece.machine, a, b);
+    const double turn = kinematics::rotary_travel(cutting_setup.machine, a, b);
     const int needed = std::max(steps, static_cast<int>(std::ceil(turn / turn_per_step)));
     std::vector<Vec3> tips;
-    for (const geometry::ToolPose& pose : toolpath::actual_poses(workpiece.machine, a, b, needed + 1)) {
+    for (const geometry::ToolPose& pose : toolpath::actual_poses(cutting_setup.machine, a, b, needed + 1)) {
         tips.push_back(pose.tip);
     }
     return tips;

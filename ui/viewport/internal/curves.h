@@ -18,7 +18,7 @@ on_surface(const geometry::ParametricSurface& patch, const Vec2& a, const Vec2& 
 /// Where the tip really goes during a move of `shown`: at least `steps` + 1 points, and more where the axes
 /// turn far.
 [[nodiscard]] std::vector<Vec3>
-actual_tips(const plan::Workpiece& workpiece, const plan::Evaluation& shown, int move, int steps);
+actual_tips(const plan::CuttingSetup& cutting_setup, const plan::Evaluation& shown, int move, int steps);
 
 /// So many steps for each of `curves` curves that they look smooth, and that all together stay quick to draw.
 [[nodiscard]] int smooth_steps(int curves);

@@ -18,14 +18,16 @@ constexpr double deepest_share = 0.05; // of the content's radius: deeper under 
 
 using toolpath::MoveKind;
 
-PathLines
-actual_lines(const plan::Workpiece& workpiece, const plan::Evaluation& shown, MoveKind kind, int steps) {
+PathLines actual_lines(const plan::CuttingSetup& cutting_setup,
+                       const plan::Evaluation& shown,
+                       MoveKind kind,
+                       int steps) {
     return PathLines(static_cast<int>(shown.field.moves.size()), [&](int move) -> PathLines::Move {
         const toolpath::MoveDeviation& deviation = shown.field.moves[static_cast<std::size_t>(move)];
         if (deviation.kind != kind) {
             return {};
         }
-        return {.points = actual_tips(workpiece, shown, move, steps),
+        return {.points = actual_tips(cutting_setup, shown, move, steps),
                 .value = static_cast<float>(deviation.closest),
                 .dashed = kind == MoveKind::cross};
     });
@@ -39,8 +41,8 @@ public:
         }
         if (scene.layers.error_surface && !of_surface_.same(scene)) {
             of_surface_.follow(scene);
-            surface_ =
-                of_surface_.complete() ? error_surface(*scene.workpiece, *scene.shown) : render::MeshBuffer();
+            surface_ = of_surface_.complete() ? error_surface(*scene.cutting_setup, *scene.shown)
+                                              : render::MeshBuffer();
         }
     }
 
@@ -72,16 +74,16 @@ private:
     /// Which results a buffer was made from.
     struct Made {
         std::shared_ptr<const plan::Evaluation> shown;
-        std::shared_ptr<const plan::Workpiece> workpiece;
+        std::shared_ptr<const plan::CuttingSetup> cutting_setup;
 
         [[nodiscard]] bool same(const Scene& scene) const {
-            return shown == scene.shown && workpiece == scene.workpiece;
+            return shown == scene.shown && cutting_setup == scene.cutting_setup;
         }
         void follow(const Scene& scene) {
             shown = scene.shown;
-            workpiece = scene.workpiece;
+            cutting_setup = scene.cutting_setup;
         }
-        [[nodiscard]] bool complete() const { return shown && workpiece; }
+        [[nodiscard]] bool complete() const { return shown && cutting_setup; }
     };
 
     void update_path(const Scene& scene) {
@@ -93,8 +95,8 @@ private:
         crossings_ = {};
         if (of_path_.complete()) {
             const int steps = std::max(smooth_steps(static_cast<int>(scene.shown->field.moves.size())), 2);
-            tracks_ = actual_lines(*scene.workpiece, *scene.shown, MoveKind::track, steps);
-            crossings_ = actual_lines(*scene.workpiece, *scene.shown, MoveKind::cross, 2 * steps - 1);
+            tracks_ = actual_lines(*scene.cutting_setup, *scene.shown, MoveKind::track, steps);
+            crossings_ = actual_lines(*scene.cutting_setup, *scene.shown, MoveKind::cross, 2 * steps - 1);
         }
     }
 

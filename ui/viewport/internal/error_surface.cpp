@@ -29,8 +29,9 @@ std::vector<double> node_errors(const plan::Evaluation& shown) {
 
 } // namespace
 
-render::MeshBuffer error_surface(const plan::Workpiece& workpiece, const plan::Evaluation& shown) {
-    return value_surface(workpiece.patch, workpiece.trim, shown.outcome.grid.array(), node_errors(shown));
+render::MeshBuffer error_surface(const plan::CuttingSetup& cutting_setup, const plan::Evaluation& shown) {
+    return value_surface(
+        cutting_setup.patch, cutting_setup.trim, shown.outcome.grid.array(), node_errors(shown));
 }
 
 } // namespace millwright::viewport

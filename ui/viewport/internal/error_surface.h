@@ -8,7 +8,7 @@ namespace millwright::viewport {
 
 /// Each node takes the larger error of its two moves inside the track; between nodes errors are blended.
 /// `value` is the closest distance, mm.
-[[nodiscard]] render::MeshBuffer error_surface(const plan::Workpiece& workpiece,
+[[nodiscard]] render::MeshBuffer error_surface(const plan::CuttingSetup& cutting_setup,
                                                const plan::Evaluation& shown);
 
 } // namespace millwright::viewport

@@ -93,15 +93,15 @@ SolidBuffers block(const Box3& part, double share, double low, double high) {
 class FixtureLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.machine || (scene.surface == surface_ && scene.workpiece == workpiece_)) {
+        if (!scene.layers.machine || (scene.surface == surface_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         surface_ = scene.surface;
-        workpiece_ = scene.workpiece;
+        cutting_setup_ = scene.cutting_setup;
         walls_ = {};
         plate_ = {};
         column_ = {};
-        if (surface_ && workpiece_) {
+        if (surface_ && cutting_setup_) {
             rebuild();
         }
     }
@@ -125,7 +125,7 @@ private:
                 part.extend(point);
             }
         }
-        const Heights z = heights(part, workpiece_->machine);
+        const Heights z = heights(part, cutting_setup_->machine);
         Solid walls;
         for (const std::vector<Vec3>& points : borders) {
             add_walls(walls, points, z.bottom);
@@ -136,7 +136,7 @@ private:
     }
 
     std::shared_ptr<const geometry::Surface> surface_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     SolidBuffers walls_;
     SolidBuffers plate_;
     SolidBuffers column_;

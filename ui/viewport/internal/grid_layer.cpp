@@ -23,7 +23,7 @@ struct GridBuffers {
 
 /// Of 1, 2, 5 ... the first that divides `each` and leaves no more edges than can be drawn quickly: where
 /// lines are left out, their own pieces may be longer, but still meet the others at the nodes.
-int nodes_a_piece(int each, std::size_t lines, int nodes) {
+int nodes_per_piece(int each, std::size_t lines, int nodes) {
     constexpr std::size_t most_edges = 40000; // of one direction
     for (const int step : {1, 2, 5, 10, 20, 50, 100, 200, 500}) {
         const bool quick = lines * static_cast<std::size_t>(nodes / step) <= most_edges;
@@ -61,18 +61,19 @@ render::PointBuffer make_marks(const grid::NodeArray& nodes, const geometry::Par
     return render::PointBuffer(points);
 }
 
-GridBuffers
-make_grid_buffers(const grid::NodeArray& nodes, const plan::Workpiece& workpiece, const GridLines& shown) {
+GridBuffers make_grid_buffers(const grid::NodeArray& nodes,
+                              const plan::CuttingSetup& cutting_setup,
+                              const GridLines& shown) {
     const std::vector<int> rows = line_numbers(nodes.rows, shown.each_row);
     const std::vector<int> columns = line_numbers(nodes.columns, shown.each_column);
-    const int down = nodes_a_piece(shown.each_row, columns.size(), nodes.rows);
-    const int across = nodes_a_piece(shown.each_column, rows.size(), nodes.columns);
-    const geometry::ParametricSurface& patch = workpiece.patch;
+    const int down = nodes_per_piece(shown.each_row, columns.size(), nodes.rows);
+    const int across = nodes_per_piece(shown.each_column, rows.size(), nodes.columns);
+    const geometry::ParametricSurface& patch = cutting_setup.patch;
     render::LineBuffer along_u = make_lines(
         patch, columns, line_numbers(nodes.rows, down), [&](int j, int i) { return nodes.at(i, j); });
     render::LineBuffer along_v = make_lines(
         patch, rows, line_numbers(nodes.columns, across), [&](int i, int j) { return nodes.at(i, j); });
-    const bool tracks_along_u = workpiece.direction == grid::TrackDirection::along_u;
+    const bool tracks_along_u = cutting_setup.direction == grid::TrackDirection::along_u;
     return {.tracks = std::move(tracks_along_u ? along_u : along_v),
             .across = std::move(tracks_along_u ? along_v : along_u),
             .nodes = shown.all() ? make_marks(nodes, patch) : render::PointBuffer()};
@@ -83,13 +84,13 @@ class ShownGrid {
 public:
     void update(std::shared_ptr<const void> owner,
                 const grid::NodeArray* nodes,
-                const std::shared_ptr<const plan::Workpiece>& workpiece) {
-        if (owner == owner_ && workpiece == workpiece_) {
+                const std::shared_ptr<const plan::CuttingSetup>& cutting_setup) {
+        if (owner == owner_ && cutting_setup == cutting_setup_) {
             return;
         }
         owner_ = std::move(owner);
-        workpiece_ = workpiece;
-        nodes_ = workpiece ? nodes : nullptr;
+        cutting_setup_ = cutting_setup;
+        nodes_ = cutting_setup ? nodes : nullptr;
         made_for_.reset();
         buffers_ = {};
     }
@@ -100,9 +101,9 @@ public:
             return buffers_;
         }
         const GridLines wanted =
-            readable_lines(*nodes_, workpiece_->patch, canvas.view, glm::dmat4(canvas.s_T_w));
+            readable_lines(*nodes_, cutting_setup_->patch, canvas.view, glm::dmat4(canvas.s_T_w));
         if (made_for_ != wanted) {
-            buffers_ = make_grid_buffers(*nodes_, *workpiece_, wanted);
+            buffers_ = make_grid_buffers(*nodes_, *cutting_setup_, wanted);
             made_for_ = wanted;
         }
         return buffers_;
@@ -110,7 +111,7 @@ public:
 
 private:
     std::shared_ptr<const void> owner_; ///< of the nodes
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     const grid::NodeArray* nodes_ = nullptr;
     // Only the picture tells how many lines there are to be.
     mutable GridBuffers buffers_;
@@ -121,12 +122,12 @@ class GridLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
         if (scene.layers.grid && scene.watched) {
-            grid_.update(scene.watched, &scene.watched->current, scene.workpiece);
+            grid_.update(scene.watched, &scene.watched->current, scene.cutting_setup);
         } else if (scene.layers.grid) {
-            follow(grid_, scene.shown, scene.workpiece);
+            follow(grid_, scene.shown, scene.cutting_setup);
         }
         if (scene.layers.start_grid) {
-            follow(start_, scene.start, scene.workpiece);
+            follow(start_, scene.start, scene.cutting_setup);
         }
     }
 
@@ -145,7 +146,7 @@ public:
             const GridBuffers& grid_lines = grid_.buffers(canvas);
             const float opacity = is_plain ? 0.95F : 0.6F; // light lines look thicker
             const bool tracks_along_u =
-                scene.workpiece && scene.workpiece->direction == grid::TrackDirection::along_u;
+                scene.cutting_setup && scene.cutting_setup->direction == grid::TrackDirection::along_u;
             const auto& of_u = colors.chosen.of(render::LayerColor::grid_u);
             const auto& of_v = colors.chosen.of(render::LayerColor::grid_v);
             const glm::vec3 across = (tracks_along_u ? of_v : of_u).value_or(line);
@@ -165,8 +166,8 @@ public:
 private:
     static void follow(ShownGrid& grid,
                        const std::shared_ptr<const plan::Evaluation>& evaluation,
-                       const std::shared_ptr<const plan::Workpiece>& workpiece) {
-        grid.update(evaluation, evaluation ? &evaluation->outcome.grid.array() : nullptr, workpiece);
+                       const std::shared_ptr<const plan::CuttingSetup>& cutting_setup) {
+        grid.update(evaluation, evaluation ? &evaluation->outcome.grid.array() : nullptr, cutting_setup);
     }
 
     static void

@@ -108,7 +108,7 @@ std::vector<int> line_numbers(int count, int each) {
 }
 
 const grid::NodeArray* shown_nodes(const Scene& scene) {
-    if (!scene.layers.grid || !scene.workpiece) {
+    if (!scene.layers.grid || !scene.cutting_setup) {
         return nullptr;
     }
     if (scene.watched) {
@@ -123,7 +123,7 @@ std::string grid_lines_note(const Scene& scene, const render::View& view) {
         return {};
     }
     const glm::dmat4 s_T_w = render::to_glm(scene_from_workpiece(scene));
-    const GridLines lines = readable_lines(*nodes, scene.workpiece->patch, view, s_T_w);
+    const GridLines lines = readable_lines(*nodes, scene.cutting_setup->patch, view, s_T_w);
     if (lines.all()) {
         return {};
     }

@@ -21,10 +21,10 @@ namespace {
 
 /// Height of the project's tool above its tip, which the machine's own cutter makes room for; 0 for a point.
 double height_of_tool(const Scene& scene) {
-    if (!scene.workpiece || !scene.workpiece->tool.cutter) {
+    if (!scene.cutting_setup || !scene.cutting_setup->tool.cutter) {
         return 0.0;
     }
-    const toolpath::Tool& tool = scene.workpiece->tool;
+    const toolpath::Tool& tool = scene.cutting_setup->tool;
     return (tool.holder ? *tool.holder : *tool.cutter).shape().top;
 }
 

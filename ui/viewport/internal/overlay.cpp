@@ -298,7 +298,7 @@ void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std:
     }
 }
 
-void draw_box(const Pane& pane, const Hand::Box& box) {
+void draw_box(const Pane& pane, const MouseTool::Box& box) {
     const ImVec2 a = vec(in_window(pane, box.corner));
     const ImVec2 b = vec(in_window(pane, box.opposite));
     const ImVec2 low = {std::min(a.x, b.x), std::min(a.y, b.y)};
@@ -308,23 +308,26 @@ void draw_box(const Pane& pane, const Hand::Box& box) {
     list.AddRect(low, high, to_colour(pane.colors.accent, 0.9));
 }
 
-void draw_hint(
-    widgets::Ui& ui, const Pane& pane, const Scene& scene, const Hand& hand, std::span<const Rect> fixed) {
+void draw_hint(widgets::Ui& ui,
+               const Pane& pane,
+               const Scene& scene,
+               const MouseTool& mouse_tool,
+               std::span<const Rect> fixed) {
     const auto at_mouse = [&](const std::string& text) {
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         const Point at = aside(ui, pane.rect, {mouse.x, mouse.y - ui.px(label_above + 6.0F)}, text, fixed);
         ui.record("hint", widgets::label_box(ui, at, text));
         widgets::label_at(ui, at, text, text_colour(pane));
     };
-    if (scene.arm && hand.highlight().arm) {
-        at_mouse(arm_text(*scene.arm, *hand.highlight().arm));
-    } else if (hand.drag()) {
-        const PointDrag& drag = *hand.drag();
+    if (scene.arm && mouse_tool.highlight().arm) {
+        at_mouse(arm_text(*scene.arm, *mouse_tool.highlight().arm));
+    } else if (mouse_tool.drag()) {
+        const PointDrag& drag = *mouse_tool.drag();
         const Vec3 place = scene_from_workpiece(scene) * Vec3(drag.grabbed().position + drag.moved());
         const Label label = {render::to_glm(place), drag_text(drag), pane.colors.selected};
         draw_labels(ui, pane, std::span(&label, 1), fixed);
-    } else if (hand.highlight().move && scene.shown) {
-        at_mouse(move_text(scene, *hand.highlight().move));
+    } else if (mouse_tool.highlight().move && scene.shown) {
+        at_mouse(move_text(scene, *mouse_tool.highlight().move));
     }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ui/render/view_colors.h"
-#include "ui/viewport/hand.h"
+#include "ui/viewport/mouse_tool.h"
 #include "ui/viewport/scene_view.h"
 #include "ui/widgets/ui.h"
 
@@ -48,20 +48,20 @@ void draw_caption(widgets::Ui& ui, const Pane& pane, std::string_view name, std:
 [[nodiscard]] widgets::Rect
 caption_place(const widgets::Ui& ui, const Pane& pane, std::string_view name, std::string_view left_out);
 
-void draw_box(const Pane& pane, const Hand::Box& box);
+void draw_box(const Pane& pane, const MouseTool::Box& box);
 
 /// The ring of the brush, and the outline with its corners, recorded as `corner(k)`.
 void draw_surface_tool(widgets::Ui& ui,
                        const Pane& pane,
                        const Scene& scene,
                        const SurfacePicker& picker,
-                       const SurfaceHand& hand);
+                       const SurfaceMouseTool& mouse_tool);
 
 /// What is being dragged or pointed at, beside it; not over `fixed`.
 void draw_hint(widgets::Ui& ui,
                const Pane& pane,
                const Scene& scene,
-               const Hand& hand,
+               const MouseTool& mouse_tool,
                std::span<const widgets::Rect> fixed);
 
 } // namespace millwright::viewport

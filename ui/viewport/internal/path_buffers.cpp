@@ -1,6 +1,6 @@
 #include "ui/viewport/internal/path_buffers.h"
 
-#include "ui/viewport/program_sight.h"
+#include "ui/viewport/path_lod.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace {
 
 using gcode::PathChunk;
 
-constexpr int chunks_an_update = 2; // about 2 ms each without a graphics card
+constexpr int chunks_per_update = 2; // about 2 ms each without a graphics card
 // What takes a processor of 2 GHz about 25 and 100 ms without a graphics card.
 constexpr double points_while_moving = 25'000.0;
 constexpr double points_at_rest = 100'000.0;
@@ -22,7 +22,7 @@ render::PathBuffer chunk_buffer(const PathChunk& chunk) {
     const glm::vec3 max(chunk.max[0], chunk.max[1], chunk.max[2]);
     std::vector<render::PathVertex> vertices;
     vertices.reserve(chunk.points.size());
-    for (const gcode::PathPoint& point : chunk.points) {
+    for (const gcode::PreviewPoint& point : chunk.points) {
         vertices.push_back(
             render::path_vertex(point.xyz(), static_cast<std::uint16_t>(point.kind()), min, max));
     }
@@ -37,7 +37,7 @@ bool PathBuffers::follow(const std::vector<std::shared_ptr<const PathChunk>>& ch
     shown_.resize(kept);
     buffers_.resize(kept);
     for (auto next = theirs; next != chunks.end(); ++next) {
-        if (next - theirs == chunks_an_update) {
+        if (next - theirs == chunks_per_update) {
             return false;
         }
         shown_.push_back(*next);
@@ -58,10 +58,10 @@ void PathBuffers::draw(const Scene& scene,
                        std::int64_t done,
                        double share) const {
     const double points = share * (rough ? points_while_moving : points_at_rest);
-    const auto chosen = pieces_in_sight(shown_,
-                                        path_view(canvas.view, scene),
-                                        static_cast<std::size_t>(points),
-                                        rough ? same_while_moving_px : 0.0);
+    const auto chosen = visible_pieces(shown_,
+                                       path_view(canvas.view, scene),
+                                       static_cast<std::size_t>(points),
+                                       rough ? same_while_moving_px : 0.0);
     for (std::size_t k = 0; k < shown_.size(); ++k) {
         style.done =
             static_cast<int>(std::clamp<std::int64_t>(done - shown_[k]->first, -1, PathChunk::most_points));

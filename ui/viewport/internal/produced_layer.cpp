@@ -107,16 +107,16 @@ render::LineBuffer produced_lines_across(const ProducedSurface& surface, int ste
 class ProducedLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.produced || (scene.shown == shown_ && scene.workpiece == workpiece_)) {
+        if (!scene.layers.produced || (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         shown_ = scene.shown;
-        workpiece_ = scene.workpiece;
+        cutting_setup_ = scene.cutting_setup;
         mesh_ = {};
         along_ = {};
         across_ = {};
         outline_.clear();
-        if (shown_ && workpiece_) {
+        if (shown_ && cutting_setup_) {
             rebuild();
         }
     }
@@ -133,7 +133,8 @@ public:
                              .model = canvas.s_T_w,
                              .back_color = glm::mix(plain, colors.surface_back, 0.5F)},
                             canvas.view);
-        const bool tracks_along_u = workpiece_ && workpiece_->direction == grid::TrackDirection::along_u;
+        const bool tracks_along_u =
+            cutting_setup_ && cutting_setup_->direction == grid::TrackDirection::along_u;
         const auto of_u = line_color(colors, render::LayerColor::produced_u);
         const auto of_v = line_color(colors, render::LayerColor::produced_v);
         render::LineStyle line = {.model = canvas.s_T_w, .width_px = 1.0F};
@@ -157,12 +158,13 @@ private:
     void rebuild() {
         const int steps = steps_per_move(shown_->toolpath.points.size());
         const auto surface =
-            toolpath::produced_surface(workpiece_->machine, shown_->toolpath, shown_->axes, steps);
+            toolpath::produced_surface(cutting_setup_->machine, shown_->toolpath, shown_->axes, steps);
         if (!surface) {
             return;
         }
         // Growing u and v turn counterclockwise seen from the side of S_u x S_v.
-        const bool turns = (workpiece_->direction == grid::TrackDirection::along_v) != workpiece_->flipped;
+        const bool turns =
+            (cutting_setup_->direction == grid::TrackDirection::along_v) != cutting_setup_->flipped;
         mesh_ = produced_mesh(*surface, turns ? 1.0F : -1.0F);
         along_ = produced_lines_along(*surface);
         across_ = produced_lines_across(*surface, steps);
@@ -173,7 +175,7 @@ private:
     }
 
     std::shared_ptr<const plan::Evaluation> shown_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     render::MeshBuffer mesh_;
     render::LineBuffer along_, across_;
     std::vector<Vec3> outline_;

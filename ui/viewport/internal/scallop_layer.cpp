@@ -15,20 +15,22 @@ namespace {
 class ScallopLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        const bool same = cut_ == scene.cut && workpiece_ == scene.workpiece;
+        const bool same = cut_ == scene.cut && cutting_setup_ == scene.cutting_setup;
         if (surface_colors(scene) != SurfaceColors::scallop || same) {
             return;
         }
         cut_ = scene.cut;
-        workpiece_ = scene.workpiece;
+        cutting_setup_ = scene.cutting_setup;
         const toolpath::SweptCut& swept = cut_->swept;
         const double not_cut = 2.0 * scallop_colors(scene, {}).high; // more than any that was cut
         std::vector<double> heights;
         for (const double height : swept.heights) {
             heights.push_back(std::isfinite(height) ? std::max(height, 0.0) : not_cut);
         }
-        surface_ = value_surface(
-            workpiece_->patch, workpiece_->trim, grid::Grid::uniform(swept.nu, swept.nv).array(), heights);
+        surface_ = value_surface(cutting_setup_->patch,
+                                 cutting_setup_->trim,
+                                 grid::Grid::uniform(swept.nu, swept.nv).array(),
+                                 heights);
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
@@ -45,7 +47,7 @@ public:
 
 private:
     std::shared_ptr<const plan::CutStudy> cut_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     render::MeshBuffer surface_;
 };
 

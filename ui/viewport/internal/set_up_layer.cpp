@@ -48,22 +48,22 @@ Vec3 anchor(const Box3& part, SetUpParameter across, SetUpParameter up) {
 class SetUpLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        const bool same = made_from_ == scene.set_up && workpiece_ == scene.workpiece &&
+        const bool same = made_from_ == scene.set_up && cutting_setup_ == scene.cutting_setup &&
                           place_.isApprox(scene.set_up_place, 0.0);
         if (!scene.layers.set_up_map || same) {
             return;
         }
         made_from_ = scene.set_up;
-        workpiece_ = scene.workpiece;
+        cutting_setup_ = scene.cutting_setup;
         place_ = scene.set_up_place;
         map_ = {};
         border_ = {};
         mark_ = {};
         corners_.clear();
-        shown_ = made_from_ && made_from_->study && workpiece_;
+        shown_ = made_from_ && made_from_->study && cutting_setup_;
         if (shown_) {
             now_ = made_from_->now;
-            now_.head<3>() = workpiece_->machine.description().workpiece_offset;
+            now_.head<3>() = cutting_setup_->machine.description().workpiece_offset;
             make_border();
             make_map();
         }
@@ -104,14 +104,14 @@ private:
                 for (const int end : {k, k + 1}) {
                     const double t = static_cast<double>(end) / map_border_steps;
                     const Vec2 uv = (1.0 - t) * corners[side] + t * corners[side + 1];
-                    const Vec3 p = workpiece_->patch.position(uv.x(), uv.y());
+                    const Vec3 p = cutting_setup_->patch.position(uv.x(), uv.y());
                     border.push_back({.position = render::to_float(moved_with_part(p, now_, place_))});
                 }
             }
         }
         border_ = render::LineBuffer(border, render::LineTopology::segments);
         for (const Vec2& corner : corners) {
-            const Vec3 p = workpiece_->patch.position(corner.x(), corner.y());
+            const Vec3 p = cutting_setup_->patch.position(corner.x(), corner.y());
             corners_.push_back(moved_with_part(p, now_, place_));
         }
     }
@@ -122,7 +122,7 @@ private:
         if (!has_plane_) {
             return;
         }
-        const Vec3 from = anchor(workpiece_->patch.control_box(), map.across, map.up);
+        const Vec3 from = anchor(cutting_setup_->patch.control_box(), map.across, map.up);
         const auto at = [&](double x, double y) {
             Vec3 p = from;
             p[index(map.across)] += x - now_[index(map.across)];
@@ -183,7 +183,7 @@ private:
     }
 
     std::shared_ptr<const plan::SetUpResult> made_from_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     SetUpPlace place_ = SetUpPlace::Zero();
     SetUpPlace now_ = SetUpPlace::Zero();
     bool shown_ = false;

@@ -27,20 +27,20 @@ Frame pose_frame(const geometry::ToolPose& pose) {
 class SimulationLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!tool_ || scene.workpiece != tool_of_) {
-            tool_.emplace(has_cutter(scene) ? tool_solid(scene.workpiece->tool) : tool_solid());
-            tool_of_ = scene.workpiece;
+        if (!tool_ || scene.cutting_setup != tool_of_) {
+            tool_.emplace(has_cutter(scene) ? tool_solid(scene.cutting_setup->tool) : tool_solid());
+            tool_of_ = scene.cutting_setup;
         }
-        if (!traced(scene) || (scene.shown == shown_ && scene.workpiece == workpiece_)) {
+        if (!traced(scene) || (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         shown_ = scene.shown;
-        workpiece_ = scene.workpiece;
-        trace_ = shown_ && workpiece_ ? trace_of(*workpiece_, *shown_) : PathLines();
+        cutting_setup_ = scene.cutting_setup;
+        trace_ = shown_ && cutting_setup_ ? trace_of(*cutting_setup_, *shown_) : PathLines();
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.now || !scene.workpiece) {
+        if (!scene.now || !scene.cutting_setup) {
             return;
         }
         if (traced(scene)) {
@@ -52,20 +52,22 @@ public:
     }
 
 private:
-    static bool has_cutter(const Scene& scene) { return scene.workpiece && scene.workpiece->tool.cutter; }
+    static bool has_cutter(const Scene& scene) {
+        return scene.cutting_setup && scene.cutting_setup->tool.cutter;
+    }
 
     /// The error layer draws the same way in colours of its own.
     static bool traced(const Scene& scene) {
         return scene.layers.trace && scene.now && scene.now->move >= 0 && !scene.layers.error_path;
     }
 
-    static PathLines trace_of(const plan::Workpiece& workpiece, const plan::Evaluation& shown) {
+    static PathLines trace_of(const plan::CuttingSetup& cutting_setup, const plan::Evaluation& shown) {
         const int moves = static_cast<int>(shown.field.moves.size());
         const int steps = std::max(smooth_steps(moves), 2);
         return PathLines(moves, [&](int move) -> PathLines::Move {
             const bool cuts =
                 shown.field.moves[static_cast<std::size_t>(move)].kind == toolpath::MoveKind::track;
-            return {.points = cuts ? actual_tips(workpiece, shown, move, steps) : std::vector<Vec3>{}};
+            return {.points = cuts ? actual_tips(cutting_setup, shown, move, steps) : std::vector<Vec3>{}};
         });
     }
 
@@ -80,16 +82,16 @@ private:
     }
 
     void draw_tool(const Scene& scene, const Canvas& canvas) const {
-        const Frame w_T_tool = pose_frame(kinematics::forward(scene.workpiece->machine, axes_now(scene)));
+        const Frame w_T_tool = pose_frame(kinematics::forward(scene.cutting_setup->machine, axes_now(scene)));
         const float size = has_cutter(scene) ? 1.0F : static_cast<float>(tool_share * radius(canvas.content));
         const glm::mat4 placed = canvas.s_T_w * glm::mat4(render::to_glm(w_T_tool));
         tool_->draw(canvas, glm::scale(placed, glm::vec3(size)), canvas.colors.tool);
     }
 
     std::optional<SolidBuffers> tool_;
-    std::shared_ptr<const plan::Workpiece> tool_of_; // whose tool that is
+    std::shared_ptr<const plan::CuttingSetup> tool_of_; // whose tool that is
     std::shared_ptr<const plan::Evaluation> shown_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     PathLines trace_;
 };
 

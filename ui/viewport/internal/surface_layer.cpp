@@ -61,7 +61,7 @@ struct Triangles {
 class SurfaceLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        const bool flipped = scene.workpiece && scene.workpiece->flipped;
+        const bool flipped = scene.cutting_setup && scene.cutting_setup->flipped;
         if (scene.surface == surface_ && scene.trims == trims_ && flipped == flipped_) {
             return;
         }

@@ -68,7 +68,7 @@ void draw_places(widgets::Ui& ui,
     draw_pixel_line(ui, pixels);
 }
 
-void draw_corners(widgets::Ui& ui, const Pane& pane, const Scene& scene, const SurfaceHand& hand) {
+void draw_corners(widgets::Ui& ui, const Pane& pane, const Scene& scene, const SurfaceMouseTool& mouse_tool) {
     const SurfaceTool& tool = scene.surface_tool;
     const geometry::ParametricSurface& patch = scene.surface->part(tool.patch);
     const Frame s_T_w = scene_from_workpiece(scene);
@@ -79,7 +79,7 @@ void draw_corners(widgets::Ui& ui, const Pane& pane, const Scene& scene, const S
         if (!pixel) {
             continue;
         }
-        const bool marked = hand.corner() == static_cast<int>(k);
+        const bool marked = mouse_tool.corner() == static_cast<int>(k);
         list.AddCircleFilled(
             *pixel, ui.px(corner_radius), to_colour(marked ? pane.colors.selected : glm::vec3(1.0F)));
         list.AddCircle(*pixel, ui.px(corner_radius), to_colour(glm::vec3(0.0F), 0.8));
@@ -95,7 +95,7 @@ void draw_surface_tool(widgets::Ui& ui,
                        const Pane& pane,
                        const Scene& scene,
                        const SurfacePicker& picker,
-                       const SurfaceHand& hand) {
+                       const SurfaceMouseTool& mouse_tool) {
     const SurfaceTool& tool = scene.surface_tool;
     if (!scene.surface || (tool.kind == SurfaceToolKind::none && tool.outline.empty())) {
         return;
@@ -104,10 +104,10 @@ void draw_surface_tool(widgets::Ui& ui,
     const Frame s_T_w = scene_from_workpiece(scene);
     draw_places(ui, pane, picker, s_T_w, outline_on(patch, tool.outline, tool.closed));
     if (tool.kind == SurfaceToolKind::outline) {
-        draw_corners(ui, pane, scene, hand);
+        draw_corners(ui, pane, scene, mouse_tool);
     }
-    if (tool.kind == SurfaceToolKind::brush && hand.at()) {
-        draw_places(ui, pane, picker, s_T_w, ring_on(patch, *hand.at(), tool.radius_mm));
+    if (tool.kind == SurfaceToolKind::brush && mouse_tool.at()) {
+        draw_places(ui, pane, picker, s_T_w, ring_on(patch, *mouse_tool.at(), tool.radius_mm));
     }
 }
 

@@ -119,13 +119,13 @@ class ToolpathLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
         const bool wanted = scene.layers.toolpath || scene.layers.tool_axes;
-        if (!wanted || (scene.shown == shown_ && scene.workpiece == workpiece_)) {
+        if (!wanted || (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         shown_ = scene.shown;
-        workpiece_ = scene.workpiece;
-        buffers_ =
-            shown_ && workpiece_ ? make_toolpath_buffers(workpiece_->patch, shown_->toolpath) : Buffers{};
+        cutting_setup_ = scene.cutting_setup;
+        buffers_ = shown_ && cutting_setup_ ? make_toolpath_buffers(cutting_setup_->patch, shown_->toolpath)
+                                            : Buffers{};
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
@@ -193,7 +193,7 @@ private:
     }
 
     std::shared_ptr<const plan::Evaluation> shown_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     Buffers buffers_;
 };
 

@@ -109,19 +109,19 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
 
     const Pane pane = {.rect = place, .view = view_of(frame, size), .colors = frame.colors};
     const bool esc = in_use_ && !frame.ui.keys_claimed() && render::key_pressed(Key::escape);
-    std::vector<ViewEvent> events = hand_.follow({.scene = frame.scene,
-                                                  .view = pane.view,
-                                                  .picker = frame.picker,
-                                                  .pointer = pointer,
-                                                  .keys = held_keys(pointer),
-                                                  .take_back = esc});
+    std::vector<ViewEvent> events = mouse_tool_.follow({.scene = frame.scene,
+                                                        .view = pane.view,
+                                                        .picker = frame.picker,
+                                                        .pointer = pointer,
+                                                        .keys = held_keys(pointer),
+                                                        .take_back = esc});
     draw_picture(frame, pane.view, pointer);
     if (frame.view.unfinished()) {
         drawn_.reset();
         frame.ui.change_in(0.0);
     }
     draw_over(frame, pane);
-    if (hand_.wants_fit()) {
+    if (mouse_tool_.wants_fit()) {
         fit();
         frame.ui.change_in(0.0);
     }
@@ -200,7 +200,7 @@ void ViewPane::draw_picture(const Frame3D& frame, const render::View& view, cons
                  .camera = camera().pose(),
                  .size = view.size,
                  .theme = frame.colors.theme,
-                 .highlight = hand_.highlight()};
+                 .highlight = mouse_tool_.highlight()};
     const bool changed = !drawn_ || *drawn_ != now;
     const bool moving = by_hand || changes_;
     if (changed) {
@@ -249,10 +249,10 @@ void ViewPane::draw_over(const Frame3D& frame, const Pane& pane) {
     for (const widgets::Rect& words : draw_labels(frame.ui, pane, labels, taken)) {
         frame.ui.record("label_" + std::to_string(drawn++), words);
     }
-    draw_surface_tool(frame.ui, pane, frame.scene, frame.picker, hand_.surface());
-    draw_hint(frame.ui, pane, frame.scene, hand_, taken);
-    if (hand_.box()) {
-        draw_box(pane, *hand_.box());
+    draw_surface_tool(frame.ui, pane, frame.scene, frame.picker, mouse_tool_.surface());
+    draw_hint(frame.ui, pane, frame.scene, mouse_tool_, taken);
+    if (mouse_tool_.box()) {
+        draw_box(pane, *mouse_tool_.box());
     }
     draw_caption(frame.ui, pane, caption_, view_notes(frame.scene, pane.view));
     record_handles(frame, pane);

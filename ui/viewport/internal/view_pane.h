@@ -3,8 +3,8 @@
 
 #include "ui/render/camera.h"
 #include "ui/render/view_target.h"
-#include "ui/viewport/hand.h"
 #include "ui/viewport/internal/overlay.h"
+#include "ui/viewport/mouse_tool.h"
 
 #include <map>
 #include <optional>
@@ -49,7 +49,7 @@ public:
     void fit_all();
     void fit_unturned();
 
-    [[nodiscard]] const Hand& hand() const { return hand_; }
+    [[nodiscard]] const MouseTool& mouse_tool() const { return mouse_tool_; }
     /// The mouse is in it or works in it.
     [[nodiscard]] bool in_use() const { return in_use_; }
 
@@ -103,7 +103,7 @@ private:
     render::Edges edges_ = render::Edges::smooth; ///< of what was drawn
     bool changes_ = false;                        ///< the picture was another one in the last frame, too
     double wheel_until_ = 0.0;                    ///< ImGui time until which the wheel counts as turning
-    Hand hand_;
+    MouseTool mouse_tool_;
     bool in_use_ = false;
 };
 

@@ -11,14 +11,15 @@ namespace {
 class WeightLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        const bool same = weight_ == scene.weight && workpiece_ == scene.workpiece;
+        const bool same = weight_ == scene.weight && cutting_setup_ == scene.cutting_setup;
         if (surface_colors(scene) != SurfaceColors::weight || same) {
             return;
         }
         weight_ = scene.weight;
-        workpiece_ = scene.workpiece;
+        cutting_setup_ = scene.cutting_setup;
         const grid::Grid raster = grid::Grid::uniform(weight_->rows, weight_->columns);
-        surface_ = value_surface(workpiece_->patch, workpiece_->trim, raster.array(), weight_->values);
+        surface_ =
+            value_surface(cutting_setup_->patch, cutting_setup_->trim, raster.array(), weight_->values);
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
@@ -35,7 +36,7 @@ public:
 
 private:
     std::shared_ptr<const plan::WeightMap> weight_;
-    std::shared_ptr<const plan::Workpiece> workpiece_;
+    std::shared_ptr<const plan::CuttingSetup> cutting_setup_;
     render::MeshBuffer surface_;
 };
 

@@ -9,7 +9,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr double rows_a_notch = 3.0;
+constexpr double rows_per_notch = 3.0;
 
 double& scroll_of(Ui& ui, const std::string& path) {
     return ui.state().memory[path + "@top"];
@@ -20,7 +20,7 @@ void take_wheel_and_keys(const Ui& ui, const Rect& box, double& top, double in_s
         return;
     }
     if (!ImGui::GetIO().KeyShift) { // else it goes sideways
-        top -= rows_a_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
+        top -= rows_per_notch * static_cast<double>(ImGui::GetIO().MouseWheel);
     }
     if (ui.was_typing()) {
         return;

@@ -7,7 +7,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr float pixels_a_step = 4.0F;
+constexpr float pixels_per_step = 4.0F;
 
 /// Kept by path while the label is held.
 enum class Stage { idle, dragging, given_up };
@@ -16,7 +16,7 @@ double dragged_value(const Ui& ui, const ScrubView& view) {
     const ImGuiIO& io = ImGui::GetIO();
     const double size = io.KeyShift ? 0.1 : io.KeyCtrl ? 10.0 : 1.0;
     const float along = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F).x;
-    const double steps = std::trunc(static_cast<double>(along / ui.px(pixels_a_step)));
+    const double steps = std::trunc(static_cast<double>(along / ui.px(pixels_per_step)));
     const double whole = std::pow(10.0, view.info.decimals);
     const double wanted = view.value + steps * size * view.step;
     return std::clamp(std::round(wanted * whole) / whole, view.info.min, view.info.max);
@@ -32,7 +32,7 @@ Scrubbed scrub(Ui& ui, const ScrubView& view) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     }
     const bool moved =
-        std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F).x) >= ui.px(pixels_a_step);
+        std::abs(ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0.0F).x) >= ui.px(pixels_per_step);
     const auto keep = [&kept](Stage next) { kept = static_cast<double>(next); };
     if (!now.held) {
         keep(Stage::idle);

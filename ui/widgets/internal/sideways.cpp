@@ -9,7 +9,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr double pixels_a_notch = 60.0;
+constexpr double pixels_per_notch = 60.0;
 
 struct SidewaysState {
     double& left;
@@ -36,7 +36,7 @@ Sideways::Sideways(Ui& ui, const std::string& path, Rect& box) : ui_(ui), path_(
     const ImGuiIO& io = ImGui::GetIO();
     if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(upper_left(box), lower_right(box))) {
         const double notches = static_cast<double>(io.MouseWheelH + (io.KeyShift ? io.MouseWheel : 0.0F));
-        state.left -= static_cast<double>(ui.px(1.0F)) * pixels_a_notch * notches;
+        state.left -= static_cast<double>(ui.px(1.0F)) * pixels_per_notch * notches;
     }
     const float thickness = ui.px(scroll_bar_width);
     box.h -= thickness;

@@ -1,9 +1,9 @@
 #include "core/drivers/grbl/internal/axis_limits.h"
 
 #include "core/base/units.h"
+#include "core/drivers/grbl/grbl_settings.h"
 #include "core/drivers/grbl/internal/axis_units.h"
-#include "core/drivers/grbl/internal/session.h"
-#include "core/drivers/grbl/settings.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 
 #include <fmt/format.h>
 

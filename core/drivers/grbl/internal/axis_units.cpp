@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/drivers/grbl/internal/session.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 
 #include <fmt/format.h>
 

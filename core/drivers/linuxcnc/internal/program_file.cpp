@@ -1,7 +1,7 @@
 #include "core/drivers/linuxcnc/internal/program_file.h"
 
 #include "core/base/error.h"
-#include "core/drivers/bare_line.h"
+#include "core/drivers/stripped_line.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ ProgramFile program_file(const program::Listing& listing, const std::filesystem:
     ProgramFile result;
     bool opened = false;
     for (int line = 1; line <= listing.line_count() && result.end_line == 0; ++line) {
-        const std::string text = bare_line(listing.line(line));
+        const std::string text = stripped_line(listing.line(line));
         result.in_order = result.in_order && !is_flow(text);
         const bool percent = text.starts_with('%');
         if (ends(text) || (percent && opened)) {

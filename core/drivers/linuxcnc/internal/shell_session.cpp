@@ -40,7 +40,7 @@ void ShellSession::opened(double now) {
     *this = ShellSession(settings_);
     stage_ = Stage::greeting;
     last_heard_ = since_ = now;
-    own_pause_.begin(now);
+    host_stall_.begin(now);
     send("hello " + settings_.password + " millwright 1.0", "HELLO");
     output_ += "set echo off\r\n"; // answered by its echo, or not at all
     set("verbose on");
@@ -137,7 +137,7 @@ void ShellSession::tick(double now) {
     if (stage_ == Stage::closed || link_lost_) {
         return;
     }
-    last_heard_ = std::min(now, last_heard_ + own_pause_.taken(now));
+    last_heard_ = std::min(now, last_heard_ + host_stall_.taken(now));
     if (now - last_heard_ > settings_.patience && !outstanding_.empty()) {
         fall_silent();
         in_round_ = false;

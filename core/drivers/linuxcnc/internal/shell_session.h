@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/drivers/controller_session.h"
+#include "core/drivers/host_stall.h"
 #include "core/drivers/internal/jog_feed.h"
 #include "core/drivers/linuxcnc/internal/program_file.h"
 #include "core/drivers/linuxcnc/internal/replies.h"
-#include "core/drivers/own_pause.h"
 
 #include <deque>
 #include <map>
@@ -119,7 +119,7 @@ private:
     };
     std::deque<Request> outstanding_;           ///< sent and not answered; answers come in order
     std::map<std::string, std::string> values_; ///< the last of each get
-    OwnPause own_pause_;
+    HostStall host_stall_;
     double next_round_ = 0.0, last_heard_ = 0.0, since_ = 0.0, last_round_ = 0.0;
     bool in_round_ = false;
     std::string error_; ///< of this round; empty: none

@@ -154,8 +154,8 @@ void RecordSession::start(const Work& work, double now) {
     program_ = work.program;
     listing_ = work.listing;
     trajectory_ = work.trajectory;
-    ahead_.begin(work.ahead, program_->block_count());
-    own_pause_.begin(now);
+    send_window_.begin(work.ahead, program_->block_count());
+    host_stall_.begin(now);
     status_.block = next_ = 0;
     status_.executed_blocks = status_.sent_blocks = 0;
     status_.fraction = 0.0;
@@ -243,11 +243,11 @@ bool RecordSession::may_begin_block(double now) {
         next_ >= program_->block_count()) {
         return false;
     }
-    return ahead_.allows(next_);
+    return send_window_.allows(next_);
 }
 
 void RecordSession::tick(double now) {
-    const double pause = own_pause_.taken(now);
+    const double pause = host_stall_.taken(now);
     if (under_way_ && under_way_->record && awaits_answers()) {
         under_way_->over += pause;
     }

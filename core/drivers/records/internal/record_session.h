@@ -4,8 +4,8 @@
 
 #include "core/drivers/answer_lines.h"
 #include "core/drivers/controller_session.h"
-#include "core/drivers/internal/ahead.h"
-#include "core/drivers/own_pause.h"
+#include "core/drivers/host_stall.h"
+#include "core/drivers/internal/send_window.h"
 #include "core/drivers/records/internal/answer_pace.h"
 #include "core/drivers/records/records_driver.h"
 
@@ -37,7 +37,7 @@ public:
     void tick(double now) override;
     [[nodiscard]] double patience(double now) const override;
     [[nodiscard]] std::string take_output() override;
-    [[nodiscard]] internal::Ahead* ahead() override { return &ahead_; }
+    [[nodiscard]] internal::SendWindow* send_window() override { return &send_window_; }
 
     [[nodiscard]] DriverStatus status() const override { return status_; }
     [[nodiscard]] bool greeted() const override { return true; }
@@ -88,8 +88,8 @@ private:
     std::shared_ptr<const program::Listing> listing_;
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< for its times alone; may be null
     int next_ = 0;                                         ///< block of the program
-    internal::Ahead ahead_;
-    OwnPause own_pause_;
+    internal::SendWindow send_window_;
+    HostStall host_stall_;
     bool optional_stop_ = false;
     std::optional<UnderWay> under_way_;
     /// Until when the table may go on with the record that was on its way when an alarm came; its late

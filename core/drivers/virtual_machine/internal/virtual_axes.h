@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/drivers/driver.h"
-#include "core/drivers/virtual_machine/internal/hand_control.h"
+#include "core/drivers/virtual_machine/internal/manual_control.h"
 #include "core/motion/override.h"
 
 #include <deque>

@@ -1,7 +1,7 @@
 // Arcs as an emulated Grbl makes them: chords no farther from the arc than a tolerance. mm.
 #pragma once
 
-#include "core/emulators/grbl/internal/settings.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 
 #include <array>
 #include <optional>

@@ -1,7 +1,7 @@
 // The bytes in which an AVR keeps the settings of an emulated Grbl, and how long it writes at them.
 #pragma once
 
-#include "core/emulators/grbl/internal/settings.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 
 #include <vector>
 

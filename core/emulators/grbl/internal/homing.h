@@ -1,7 +1,7 @@
 // The homing cycle of an emulated Grbl: first Z, then X and Y together; search, pull off, locate, pull off.
 #pragma once
 
-#include "core/emulators/grbl/internal/settings.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // number of the error that Grbl answers. Lengths mm, rates mm/min.
 #pragma once
 
-#include "core/emulators/grbl/internal/settings.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 #include "core/emulators/grbl/internal/words.h"
 
 #include <string>

@@ -2,7 +2,7 @@
 // by junction deviation. mm, of rotary axes degrees, s.
 #pragma once
 
-#include "core/emulators/grbl/internal/settings.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 
 #include <cstdint>
 #include <deque>

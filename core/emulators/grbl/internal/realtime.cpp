@@ -1,5 +1,5 @@
 // The bytes that act at once, whatever the controller is doing.
-#include "core/emulators/grbl/internal/controller.h"
+#include "core/emulators/grbl/internal/emulated_controller.h"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ int changed(int value, const OverrideFlags& flags, std::size_t first) {
 
 } // namespace
 
-void Controller::receive(unsigned char byte) {
+void EmulatedController::receive(unsigned char byte) {
     const double arrived = serial_line_.arrival(time_);
     if (!serial_line_.takes(arrived)) {
         ++lost_bytes_;
@@ -55,7 +55,7 @@ void Controller::receive(unsigned char byte) {
 }
 
 /// False: it is no such character, or part of the text here.
-bool Controller::take_realtime(unsigned char byte) {
+bool EmulatedController::take_realtime(unsigned char byte) {
     const bool hal = build_.is(EmulatedFirmware::grblhal);
     const bool printable = !hal || options_.printable_realtime || !input_.in_system_line();
     switch (byte) {
@@ -108,13 +108,13 @@ bool Controller::take_realtime(unsigned char byte) {
 }
 
 /// A grblHAL whose $22 says so takes no G-code, and no $X, before it was homed.
-bool Controller::needs_homing() const {
+bool EmulatedController::needs_homing() const {
     constexpr std::size_t at_start = 2;
     return build_.is(EmulatedFirmware::grblhal) && eeprom_.has_bit(homing_setting, 0) &&
            eeprom_.has_bit(homing_setting, at_start) && !homed_;
 }
 
-void Controller::stop_everything() {
+void EmulatedController::stop_everything() {
     const bool was_homing = homing_.has_value();
     if (was_homing) {
         stepper_.stand_at(homing_->position());
@@ -138,7 +138,7 @@ void Controller::stop_everything() {
     modes_.position = stepper_.position();
 }
 
-void Controller::alarm(int code) {
+void EmulatedController::alarm(int code) {
     constexpr int hard_limit = 1;
     constexpr int soft_limit = 2;
     stop_everything();
@@ -153,13 +153,13 @@ void Controller::alarm(int code) {
 }
 
 /// A probe that fails stops nothing but the motion.
-void Controller::probe_alarm(int code) {
+void EmulatedController::probe_alarm(int code) {
     last_alarm_ = code;
     say(fmt::format("ALARM:{}\r\n", code));
     state_ = State::alarm;
 }
 
-void Controller::reset() {
+void EmulatedController::reset() {
     constexpr int reset_in_motion = 3;
     constexpr int reset_while_homing = 6;
     if (homing_) {
@@ -185,7 +185,7 @@ void Controller::reset() {
     greet();
 }
 
-void Controller::power_on() {
+void EmulatedController::power_on() {
     state_ = eeprom_.is_on(homing_setting) ? State::alarm : State::idle;
     stepper_.stand_at({});
     modes_ = {};
@@ -198,7 +198,7 @@ void Controller::power_on() {
     reset();
 }
 
-void Controller::greet() {
+void EmulatedController::greet() {
     switch (build_.firmware) {
     case EmulatedFirmware::grblhal:
         say("\r\nGrblHAL 1.1f ['$' or '$HELP' for help]\r\n");
@@ -231,7 +231,7 @@ void Controller::greet() {
     run_startup_lines();
 }
 
-void Controller::run_startup_lines() {
+void EmulatedController::run_startup_lines() {
     for (const std::string& line : eeprom_.startup_lines) {
         if (line.empty()) {
             continue;
@@ -246,7 +246,7 @@ void Controller::run_startup_lines() {
     }
 }
 
-void Controller::hold() {
+void EmulatedController::hold() {
     if (state_ == State::jog) {
         cancel_jog();
     } else if (state_ == State::idle || state_ == State::run) {
@@ -255,13 +255,13 @@ void Controller::hold() {
     }
 }
 
-void Controller::cancel_jog() {
+void EmulatedController::cancel_jog() {
     jog_cancel_ = true;
     stepper_.hold();
     after_motion();
 }
 
-void Controller::resume() {
+void EmulatedController::resume() {
     const bool ready = stepper_.at_rest() || stepper_.held();
     if (!ready) {
         return;
@@ -281,7 +281,7 @@ void Controller::resume() {
     }
 }
 
-void Controller::open_door() {
+void EmulatedController::open_door() {
     constexpr int door_while_homing = 7;
     if (homing_) {
         alarm(door_while_homing);
@@ -299,7 +299,7 @@ void Controller::open_door() {
     }
 }
 
-void Controller::set_door(bool open) {
+void EmulatedController::set_door(bool open) {
     const bool opened = open && !door_open_;
     door_open_ = open;
     if (opened) {
@@ -307,14 +307,14 @@ void Controller::set_door(bool open) {
     }
 }
 
-void Controller::hit_limit_switch() {
+void EmulatedController::hit_limit_switch() {
     constexpr int hard_limits = 21;
     if (eeprom_.is_on(hard_limits)) {
         raise_alarm();
     }
 }
 
-void Controller::raise_alarm() {
+void EmulatedController::raise_alarm() {
     constexpr int hit = 1;
     if (!critical_) {
         alarm(hit);
@@ -322,7 +322,7 @@ void Controller::raise_alarm() {
 }
 
 /// In one pass of the main loop: bytes that came more than once in between count once.
-void Controller::take_overrides() {
+void EmulatedController::take_overrides() {
     constexpr std::size_t feed = 0;
     constexpr std::size_t rapid = 5;
     constexpr std::size_t spindle = 9;
@@ -345,7 +345,7 @@ void Controller::take_overrides() {
     }
 }
 
-void Controller::change_accessory(unsigned char byte) {
+void EmulatedController::change_accessory(unsigned char byte) {
     const bool possible = state_ == State::idle || state_ == State::run || state_ == State::hold;
     if (byte == spindle_stop && state_ == State::hold && stepper_.at_rest()) {
         spindle_stopped_ = !spindle_stopped_;
@@ -359,7 +359,7 @@ void Controller::change_accessory(unsigned char byte) {
     report_.show_overrides_next();
 }
 
-std::string_view Controller::state_text() const {
+std::string_view EmulatedController::state_text() const {
     switch (state_) {
     case State::idle:
         return "Idle";
@@ -385,7 +385,7 @@ std::string_view Controller::state_text() const {
     return "Idle";
 }
 
-void Controller::report_status() {
+void EmulatedController::report_status() {
     Snapshot now;
     now.state = state_text();
     now.position = stepper_.position();

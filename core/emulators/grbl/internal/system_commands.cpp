@@ -1,7 +1,7 @@
 // Lines that begin with $.
 #include "core/base/text.h"
-#include "core/emulators/grbl/internal/controller.h"
 #include "core/emulators/grbl/internal/eeprom_image.h"
+#include "core/emulators/grbl/internal/emulated_controller.h"
 #include "core/emulators/grbl/internal/error_codes.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@
 
 namespace millwright::emulators::internal {
 
-int Controller::system_command(std::string_view line) {
+int EmulatedController::system_command(std::string_view line) {
     const bool at_work = state_ == State::run || state_ == State::hold;
     if (line == "$") {
         say("[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]\r\n");
@@ -45,7 +45,7 @@ int Controller::system_command(std::string_view line) {
     return state_ != State::idle && state_ != State::alarm ? error_code::not_idle : named_command(line);
 }
 
-int Controller::named_command(std::string_view line) {
+int EmulatedController::named_command(std::string_view line) {
     if (line == "$#") {
         say(parameters_report(modes_, probe_, eeprom_, build_));
         return error_code::none;
@@ -73,7 +73,7 @@ int Controller::named_command(std::string_view line) {
     return line.starts_with("$/") ? named_setting(line) : store_setting(line);
 }
 
-int Controller::jog(std::string_view line) {
+int EmulatedController::jog(std::string_view line) {
     const Parsed parsed = parse_jog(line, modes_, eeprom_, build_);
     if (parsed.error != error_code::none) {
         return parsed.error;
@@ -88,7 +88,7 @@ int Controller::jog(std::string_view line) {
     return error_code::none;
 }
 
-int Controller::check_mode() {
+int EmulatedController::check_mode() {
     if (state_ == State::check) {
         say(message("Disabled", build_));
         acknowledge(error_code::none);
@@ -103,7 +103,7 @@ int Controller::check_mode() {
     return error_code::none;
 }
 
-int Controller::unlock() {
+int EmulatedController::unlock() {
     if (state_ == State::alarm) {
         if (door_open_) {
             return error_code::door_open;
@@ -118,7 +118,7 @@ int Controller::unlock() {
     return error_code::none;
 }
 
-int Controller::home(std::string_view line) {
+int EmulatedController::home(std::string_view line) {
     if (line != "$H") {
         return error_code::unknown_command;
     }
@@ -133,7 +133,7 @@ int Controller::home(std::string_view line) {
     return error_code::none;
 }
 
-int Controller::build_info(std::string_view line) {
+int EmulatedController::build_info(std::string_view line) {
     const bool more = line == "$I+" && build_.is(EmulatedFirmware::grblhal);
     if (line == "$I" || more) {
         say(build_report(eeprom_, build_, options_.line_numbers, options_.printable_realtime));
@@ -148,7 +148,7 @@ int Controller::build_info(std::string_view line) {
     return error_code::none;
 }
 
-int Controller::restore(std::string_view what) {
+int EmulatedController::restore(std::string_view what) {
     const Eeprom fresh = default_eeprom(build_);
     Eeprom next = eeprom_;
     if (what == "$") {
@@ -168,7 +168,7 @@ int Controller::restore(std::string_view what) {
 }
 
 /// Grbl finds out whether a startup line is right by executing it.
-int Controller::startup_line(std::string_view line) {
+int EmulatedController::startup_line(std::string_view line) {
     if (line == "$N") {
         say(fmt::format("$N0={}\r\n$N1={}\r\n", eeprom_.startup_lines[0], eeprom_.startup_lines[1]));
         return error_code::none;
@@ -193,7 +193,7 @@ int Controller::startup_line(std::string_view line) {
     return error_code::none;
 }
 
-int Controller::store_setting(std::string_view line) {
+int EmulatedController::store_setting(std::string_view line) {
     line.remove_prefix(1);
     const std::size_t equals = line.find('=');
     int number = -1;
@@ -237,7 +237,7 @@ int number_of_item(std::string_view item, int n) {
 } // namespace
 
 /// $/axes/x/max_travel_mm of a FluidNC: a question, or with = a value that is in force at once.
-int Controller::named_setting(std::string_view line) {
+int EmulatedController::named_setting(std::string_view line) {
     if (!build_.is(EmulatedFirmware::fluidnc)) {
         return error_code::unknown_command;
     }
@@ -295,7 +295,7 @@ int Controller::named_setting(std::string_view line) {
 }
 
 /// An AVR does nothing else meanwhile, and loses most of what comes over its serial line.
-void Controller::store(const Eeprom& eeprom) {
+void EmulatedController::store(const Eeprom& eeprom) {
     const std::vector<double> pauses = eeprom_pauses(eeprom_, eeprom);
     eeprom_ = eeprom;
     if (!options_.eeprom_file.empty()) {

@@ -1,6 +1,6 @@
 // What a line makes an emulated Grbl do, piece by piece; each piece is tried until there is room for it.
 #include "core/base/numbers.h"
-#include "core/emulators/grbl/internal/controller.h"
+#include "core/emulators/grbl/internal/emulated_controller.h"
 
 #include <utility>
 
@@ -16,7 +16,7 @@ bool acts_in_check_mode(const Task& task) {
 
 } // namespace
 
-void Controller::take_over(const Parsed& parsed) {
+void EmulatedController::take_over(const Parsed& parsed) {
     modes_ = parsed.modes;
     for (const Task& task : parsed.tasks) {
         if (state_ == State::check && !acts_in_check_mode(task)) {
@@ -30,7 +30,7 @@ void Controller::take_over(const Parsed& parsed) {
 }
 
 /// Whether the line is done; then it is acknowledged.
-bool Controller::do_tasks() {
+bool EmulatedController::do_tasks() {
     while (!tasks_.empty()) {
         if (writing()) {
             return false;
@@ -55,7 +55,7 @@ bool Controller::do_tasks() {
     return true;
 }
 
-bool Controller::do_task(Task& task) {
+bool EmulatedController::do_task(Task& task) {
     switch (task.action) {
     case Action::move:
         return do_move(task);
@@ -113,16 +113,16 @@ bool Controller::do_task(Task& task) {
     return true;
 }
 
-bool Controller::writing() const {
+bool EmulatedController::writing() const {
     constexpr double rounding = 1e-9;
     return time_ < writing_until_ - rounding;
 }
 
-bool Controller::at_rest() {
+bool EmulatedController::at_rest() {
     return planner_.empty() && stepper_.at_rest();
 }
 
-bool Controller::inside_travel(const Axes& target) const {
+bool EmulatedController::inside_travel(const Axes& target) const {
     constexpr int travel = 130;
     for (std::size_t axis = 0; axis < build_.axis_count(); ++axis) {
         const double at = target[axis];
@@ -137,7 +137,7 @@ bool Controller::inside_travel(const Axes& target) const {
     return true;
 }
 
-bool Controller::do_move(Task& task) {
+bool EmulatedController::do_move(Task& task) {
     const double points = static_cast<double>(task.points.size());
     while (task.next < task.points.size()) {
         if (eeprom_.is_on(soft_limits_setting) && state_ != State::jog &&
@@ -173,7 +173,7 @@ bool Controller::do_move(Task& task) {
     return true;
 }
 
-bool Controller::do_dwell(const Task& task) {
+bool EmulatedController::do_dwell(const Task& task) {
     if (!dwell_) {
         if (!at_rest()) {
             return false;
@@ -188,7 +188,7 @@ bool Controller::do_dwell(const Task& task) {
     return true;
 }
 
-bool Controller::do_probe(const Task& task) {
+bool EmulatedController::do_probe(const Task& task) {
     if (probing_ || !at_rest()) {
         return false;
     }
@@ -210,7 +210,7 @@ bool Controller::do_probe(const Task& task) {
     return !probing_;
 }
 
-void Controller::finish_probe(bool touched) {
+void EmulatedController::finish_probe(bool touched) {
     probing_ = false;
     stepper_.halt();
     const bool must = modes_.motion == 382 || modes_.motion == 384;
@@ -231,7 +231,7 @@ void Controller::finish_probe(bool touched) {
 }
 
 /// M2 and M30 set some modes back.
-void Controller::end_program() {
+void EmulatedController::end_program() {
     modes_.motion = 10;
     modes_.plane = 170;
     modes_.absolute = true;
@@ -246,7 +246,7 @@ void Controller::end_program() {
     say(message(build_.is(EmulatedFirmware::fluidnc) ? "Program End" : "Pgm End", build_));
 }
 
-void Controller::block_done(std::int64_t owner) {
+void EmulatedController::block_done(std::int64_t owner) {
     const auto left = blocks_left_.find(owner);
     if (left == blocks_left_.end() || --left->second > 0) {
         return;

@@ -9,7 +9,7 @@
 
 namespace millwright::plot::internal {
 
-Pen::Pen(const ReaderSettings& settings, const Problems& problems)
+Pen::Pen(const HpglSettings& settings, const Problems& problems)
     : problems_(problems), unit_(settings.unit.x, settings.unit.y),
       farthest_(Vec2::Constant(settings.farthest).cwiseQuotient(unit_)), points_left_(settings.most_points) {}
 

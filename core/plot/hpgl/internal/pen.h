@@ -28,7 +28,7 @@ struct Window {
 
 class Pen {
 public:
-    Pen(const ReaderSettings& settings, const Problems& problems);
+    Pen(const HpglSettings& settings, const Problems& problems);
 
     [[nodiscard]] Vec2 at() const { return at_; }
     [[nodiscard]] bool down() const { return down_; }

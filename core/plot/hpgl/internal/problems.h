@@ -9,7 +9,7 @@ namespace millwright::plot::internal {
 
 class Problems {
 public:
-    Problems(std::filesystem::path file, const ReaderSettings& settings)
+    Problems(std::filesystem::path file, const HpglSettings& settings)
         : file_(std::move(file)), strict_(settings.strictness == Strictness::strict),
           most_(settings.most_diagnostics) {}
 

@@ -45,10 +45,10 @@ struct Modes {
 };
 
 struct Run {
-    Run(const ReaderSettings& chosen, Problems& found, Lexer& source, Plot& made)
+    Run(const HpglSettings& chosen, Problems& found, Lexer& source, Plot& made)
         : settings(chosen), problems(found), lexer(source), plot(made), units(chosen), pen(chosen, found) {}
 
-    const ReaderSettings& settings;
+    const HpglSettings& settings;
     Problems& problems;
     Lexer& lexer;
     Plot& plot;

@@ -14,7 +14,7 @@ constexpr double largest_scale = 1e9;
 
 } // namespace
 
-UserUnits::UserUnits(const ReaderSettings& settings)
+UserUnits::UserUnits(const HpglSettings& settings)
     : sheet_1_(settings.p1), sheet_2_(settings.p2), p1_(settings.p1), p2_(settings.p2) {}
 
 void UserUnits::reset_points() {

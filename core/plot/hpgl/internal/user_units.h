@@ -2,7 +2,7 @@
 // RO).
 #pragma once
 
-#include "core/plot/hpgl/settings.h"
+#include "core/plot/hpgl/hpgl_settings.h"
 
 #include <array>
 #include <optional>
@@ -11,7 +11,7 @@ namespace millwright::plot::internal {
 
 class UserUnits {
 public:
-    explicit UserUnits(const ReaderSettings& settings);
+    explicit UserUnits(const HpglSettings& settings);
 
     [[nodiscard]] Vec2 plotter(const Vec2& user) const { return linear_ * user + offset_; }
     [[nodiscard]] Vec2 plotter_step(const Vec2& user) const { return linear_ * user; }

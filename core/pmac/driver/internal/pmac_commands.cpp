@@ -154,7 +154,8 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
     if (!to || lines_may_power_ || stage_ == Stage::alarm) { // which takes none of them anyway
         return false;
     }
-    const bool moves = stage_ == Stage::astir || stage_ == Stage::commanding || (rests() && !standing());
+    const bool moves =
+        stage_ == Stage::moving_by_command || stage_ == Stage::commanding || (rests() && !standing());
     if (!moves && std::all_of(lines.begin(), lines.end(), only_aborts)) {
         answer_ = {
             answer_.number + 1,
@@ -236,12 +237,13 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     }
     const bool stops = std::all_of(
         lines.begin(), lines.end(), [](const auto& line) { return only_stops(line) || only_kills(line); });
-    if (stage_ == Stage::astir && stops) {
+    if (stage_ == Stage::moving_by_command && stops) {
         finish(Stage::commanding);
     } else if (stage_ == Stage::alarm && !waits && !link_lost_ &&
                std::all_of(lines.begin(), lines.end(), only_sets)) {
         // nothing has power: what a test of a motor had borrowed is given back
-    } else if (waits || !asks || !(active() || stage_ == Stage::astir) || stage_ == Stage::loading) {
+    } else if (waits || !asks || !(active() || stage_ == Stage::moving_by_command) ||
+               stage_ == Stage::loading) {
         require_rest("a command");
         finish(Stage::commanding);
     }

@@ -146,7 +146,7 @@ void PmacSession::halt() {
         forget_queue();
         ask(every_motor("J/"));
         finish(Stage::stopping);
-    } else if (stage_ == Stage::commanding || stage_ == Stage::astir ||
+    } else if (stage_ == Stage::commanding || stage_ == Stage::moving_by_command ||
                (rests() && (armed_ || !queue_.empty()))) {
         command_lines_.clear();
         finish(Stage::stopping);

@@ -43,7 +43,7 @@ void PmacSession::opened(double now) {
     greet_step_ = 0;
     greeting_heard_.clear();
     greet_at_ = opened_at_ = now;
-    own_pause_.begin(now);
+    host_stall_.begin(now);
     buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
     found_power_ = gave_power_ = stays_armed_ = false;
     guard_.forget();
@@ -176,7 +176,7 @@ void PmacSession::tick(double now) {
     if (stage_ == Stage::greeting) {
         greet(now);
     }
-    talk_.leave_out(own_pause_.taken(now), now);
+    talk_.leave_out(host_stall_.taken(now), now);
     if (const GuardedLine::Reply reply = talk_.poll(now); reply.outcome != GuardedLine::Outcome::none) {
         handle(reply, now);
     }
@@ -468,7 +468,7 @@ void PmacSession::finish_command(drivers::CommandAnswer::State state) {
         motor.gets_power = false;
     }
     if (stage_ == Stage::commanding) {
-        finish(armed_ ? Stage::astir : Stage::ready);
+        finish(armed_ ? Stage::moving_by_command : Stage::ready);
         ask_ratings(); // it may have set some
     }
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/drivers/controller_session.h"
-#include "core/drivers/own_pause.h"
+#include "core/drivers/host_stall.h"
 #include "core/pmac/driver/internal/following_watch.h"
 #include "core/pmac/driver/internal/guard_watch.h"
 #include "core/pmac/driver/internal/guarded_line.h"
@@ -94,7 +94,7 @@ private:
         loading,
         running,
         commanding,
-        astir, ///< a command set motors going
+        moving_by_command, ///< a command set motors going
         jogging,
         homing,
         stopping,
@@ -189,7 +189,7 @@ private:
     void watch_homing();
     void watch_stopping();
     void rest();
-    [[nodiscard]] std::string astray_sentence() const;
+    [[nodiscard]] std::string off_target_sentence() const;
     [[nodiscard]] bool at_limit(std::size_t n) const;
     [[nodiscard]] std::string limit_sentence() const;
     [[nodiscard]] std::string commanded_limit() const;
@@ -262,7 +262,7 @@ private:
 
     std::deque<Request> queue_;
     std::optional<Request> sent_;
-    drivers::OwnPause own_pause_;
+    drivers::HostStall host_stall_;
     double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0, opened_at_ = 0.0;
     std::size_t greet_step_ = 0;
     std::string greeting_heard_{}; ///< before the first question
@@ -287,7 +287,7 @@ private:
     bool mark_is_ours_ = false; ///< P1000 was set back since the watchdog was armed
     bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion that nobody sends
     int quiet_polls_ = 0;
-    int astray_polls_ = 0;     ///< a motor stands where it was not sent
+    int off_target_polls_ = 0; ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for
     bool unexplained_ = false; ///< a motor was killed, and the card has not told yet by what
     bool was_home_ = false;    ///< to tell when the card forgets

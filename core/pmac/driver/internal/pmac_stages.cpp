@@ -20,9 +20,9 @@ bool PmacSession::standing() const {
 void PmacSession::watch_stage() {
     const bool in_place =
         std::all_of(motors_.begin(), motors_.end(), [](const MotorState& m) { return m.in_place(); });
-    astray_polls_ = standing() && !in_place ? astray_polls_ + 1 : 0;
-    if (astray_polls_ > patient_polls) {
-        fail(astray_sentence());
+    off_target_polls_ = standing() && !in_place ? off_target_polls_ + 1 : 0;
+    if (off_target_polls_ > patient_polls) {
+        fail(off_target_sentence());
         return;
     }
     quiet_polls_ = standing() && in_place && queue_.empty() ? quiet_polls_ + 1 : 0;
@@ -44,7 +44,7 @@ void PmacSession::watch_stage() {
     case Stage::stopping:
         unbraked_ ? brake() : watch_stopping();
         break;
-    case Stage::astir:
+    case Stage::moving_by_command:
         if (settled) {
             const std::string limit = commanded_limit();
             finish(limit.empty() ? Stage::ready : Stage::stopped, limit);
@@ -64,10 +64,10 @@ void PmacSession::watch_stage() {
 
 /// Of the first motor that stands with power and is not in its place; by the following error that the card
 /// told last.
-std::string PmacSession::astray_sentence() const {
-    const auto astray =
+std::string PmacSession::off_target_sentence() const {
+    const auto off_target =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.in_place(); });
-    const auto n = static_cast<std::size_t>(astray - motors_.begin());
+    const auto n = static_cast<std::size_t>(off_target - motors_.begin());
     const double at = axes_deg()[n];
     const std::vector<drivers::MotorReading>& readings = readings_.motors();
     return fmt::format("{} is enabled but not at its commanded position: it is at {:.2f} degrees{}; check "
@@ -204,14 +204,14 @@ void PmacSession::finish(Stage stage, std::string why) {
     message_ = std::move(why);
     jog_until_.reset();
     jog_stopping_ = held_ = false;
-    quiet_polls_ = astray_polls_ = power_polls_ = 0;
+    quiet_polls_ = off_target_polls_ = power_polls_ = 0;
     unbraked_ = unexplained_ = false;
     following_.forget();
     brake_by_.reset();
     for (MotorState& motor : motors_) {
         motor.had_power = motor.enabled();
         motor.was_given_power =
-            motor.was_given_power && (stage == Stage::astir || stage == Stage::commanding);
+            motor.was_given_power && (stage == Stage::moving_by_command || stage == Stage::commanding);
     }
     if (given_up && answer_.state == drivers::CommandAnswer::State::pending && stage != Stage::commanding) {
         answer_.state = drivers::CommandAnswer::State::refused;

@@ -19,7 +19,7 @@ drivers::DriverState PmacSession::state() const {
         return held_ ? drivers::DriverState::holding : drivers::DriverState::running;
     case Stage::loading:
     case Stage::commanding:
-    case Stage::astir:
+    case Stage::moving_by_command:
     case Stage::jogging:
     case Stage::homing:
         return drivers::DriverState::running;
@@ -40,7 +40,7 @@ drivers::Activity PmacSession::activity() const {
     case Stage::loading:
         return drivers::Activity::program;
     case Stage::commanding:
-    case Stage::astir:
+    case Stage::moving_by_command:
         return drivers::Activity::command;
     case Stage::jogging:
         return drivers::Activity::jog;

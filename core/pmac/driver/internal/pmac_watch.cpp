@@ -127,7 +127,8 @@ void PmacSession::watch(double now) {
 }
 
 void PmacSession::watch_motors() {
-    const bool watched = active() || stage_ == Stage::astir || stage_ == Stage::commanding || rests();
+    const bool watched =
+        active() || stage_ == Stage::moving_by_command || stage_ == Stage::commanding || rests();
     const bool need_power = stage_ == Stage::running || stage_ == Stage::homing || stage_ == Stage::jogging;
     const auto killed =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.enabled(); });
@@ -142,7 +143,7 @@ void PmacSession::watch_motors() {
         }
     }
     const bool forgot = was_home_ && !position_known() && stage_ != Stage::homing &&
-                        stage_ != Stage::commanding && stage_ != Stage::astir;
+                        stage_ != Stage::commanding && stage_ != Stage::moving_by_command;
     if (forgot) {
         fail("the card lost the position: check whether it was reset");
     }
@@ -155,13 +156,13 @@ void PmacSession::watch_own_stop() {
     if (!armed_ || !mark_is_ours_ || unheard().empty()) {
         return;
     }
-    const bool commands = stage_ == Stage::astir || stage_ == Stage::commanding;
+    const bool commands = stage_ == Stage::moving_by_command || stage_ == Stage::commanding;
     const bool lost_power = std::ranges::any_of(motors_, [](const MotorState& motor) {
         return (motor.had_power || motor.was_given_power) && !motor.enabled();
     });
     if ((commands || rests()) && lost_power) {
         fail("the card disabled its motors: " + unheard());
-    } else if (stage_ == Stage::astir && !only_set_ && any_power()) {
+    } else if (stage_ == Stage::moving_by_command && !only_set_ && any_power()) {
         const std::string why = unheard();
         halt();
         message_ = "the card stopped its motors: " + why;
@@ -226,7 +227,7 @@ void PmacSession::watch_guard() {
 void PmacSession::watch_following(double now) {
     constexpr double fresh = 0.3; // s
     const std::vector<drivers::MotorReading>& readings = readings_.motors();
-    const bool moves = (active() && stage_ != Stage::loading) || stage_ == Stage::astir;
+    const bool moves = (active() && stage_ != Stage::loading) || stage_ == Stage::moving_by_command;
     if (!moves || readings.size() != motors_.size() || now - read_at_ > fresh) {
         following_.forget();
         return;
@@ -245,7 +246,7 @@ void PmacSession::watch_following(double now) {
 
 void PmacSession::watch_limits() {
     constexpr double slack_deg = 0.2;
-    if (!(active() || stage_ == Stage::astir) || !position_known() || stage_ == Stage::homing ||
+    if (!(active() || stage_ == Stage::moving_by_command) || !position_known() || stage_ == Stage::homing ||
         stage_ == Stage::stopping) {
         watched_deg_.clear();
         return;
@@ -280,7 +281,7 @@ void PmacSession::watch_zone() {
 /// With a wrong gain or offset a motor goes where nobody sent it, and brakes do not hold it.
 void PmacSession::watch_rest() {
     constexpr double slack_deg = 2.0;
-    const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::astir);
+    const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::moving_by_command);
     if (!rests() && !only_set) {
         rest_counts_.clear();
         return;

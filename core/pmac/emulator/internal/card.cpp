@@ -112,12 +112,12 @@ double Card::bias(int motor) const {
     return owner < 0 ? 0.0 : system(owner).definition(motor).offset;
 }
 
-Program* Card::program(int number) {
+StoredProgram* Card::program(int number) {
     const auto found = programs_.find(number);
     return found == programs_.end() ? nullptr : &found->second;
 }
 
-Program& Card::make_program(int number) {
+StoredProgram& Card::make_program(int number) {
     return programs_[number];
 }
 

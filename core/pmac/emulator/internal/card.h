@@ -62,12 +62,12 @@ public:
 
     // Buffers
     /// Null if there is none.
-    [[nodiscard]] Program* program(int number);
+    [[nodiscard]] StoredProgram* program(int number);
     /// Lines of a rotary buffer run as they come.
     [[nodiscard]] static int rotary(int system) { return -1 - system; }
     bool rotary_open = false;
-    [[nodiscard]] Program& make_program(int number);
-    [[nodiscard]] Program& plc(int number) { return plc_[static_cast<std::size_t>(number)].program; }
+    [[nodiscard]] StoredProgram& make_program(int number);
+    [[nodiscard]] StoredProgram& plc(int number) { return plc_[static_cast<std::size_t>(number)].program; }
     void enable_plc(int number, bool on);
     [[nodiscard]] bool plc_enabled(int number) const { return plc_[static_cast<std::size_t>(number)].on; }
 
@@ -92,7 +92,7 @@ private:
     [[nodiscard]] int wire_of(int motor) const;
     [[nodiscard]] bool is_there(int channel) const;
     struct Plc {
-        Program program{true};
+        StoredProgram program{true};
         bool on = false;
         int at = 0;
     };
@@ -117,7 +117,7 @@ private:
     Channel nowhere_;                                   ///< what motors without a channel drive
     std::array<std::uint32_t, motors> flag_words_{};    ///< what was written to the channels' registers
     std::vector<CoordinateSystem> systems_;
-    std::map<int, Program> programs_;
+    std::map<int, StoredProgram> programs_;
     std::array<Plc, plcs> plc_;
     std::deque<std::string> said_, asked_;
     double time_ = 0.0, pending_ = 0.0;

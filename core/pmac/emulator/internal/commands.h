@@ -87,7 +87,7 @@ private:
     [[nodiscard]] bool is_running(int program) const;
 
     void say(std::string text) { answer_.lines.push_back(std::move(text)); }
-    [[nodiscard]] Program* buffer();
+    [[nodiscard]] StoredProgram* buffer();
     [[nodiscard]] CoordinateSystem& system() { return card_.system(system_); }
     [[nodiscard]] Motor& motor() { return card_.motor(motor_); }
 

@@ -13,7 +13,7 @@ constexpr std::size_t most_lines = 20'000;
 
 } // namespace
 
-Program* Commands::buffer() {
+StoredProgram* Commands::buffer() {
     switch (buffer_) {
     case Buffer::program:
         return card_.program(open_number_);
@@ -28,7 +28,7 @@ Program* Commands::buffer() {
 
 /// Nothing if the line is none for the open buffer, or there is none.
 std::optional<Commands::Code> Commands::store(const std::vector<Token>& words) {
-    Program* const open = words.empty() ? nullptr : buffer();
+    StoredProgram* const open = words.empty() ? nullptr : buffer();
     if (open == nullptr) {
         return std::nullopt;
     }
@@ -85,7 +85,7 @@ Commands::Code Commands::open(Words& words) {
 }
 
 Commands::Code Commands::clear() {
-    if (Program* const open = buffer()) {
+    if (StoredProgram* const open = buffer()) {
         open->clear();
         return 0;
     }
@@ -93,14 +93,14 @@ Commands::Code Commands::clear() {
 }
 
 Commands::Code Commands::close() {
-    Program* const open = buffer();
+    StoredProgram* const open = buffer();
     buffer_ = Buffer::none;
     card_.rotary_open = false;
     return open == nullptr || open->join() ? 0 : error_code::bad_structure;
 }
 
 Commands::Code Commands::list(Words& words) {
-    Program* program = buffer();
+    StoredProgram* program = buffer();
     constexpr int programs = 32767;
     if (words.take("PROG")) {
         const auto number = words.take_index(programs);

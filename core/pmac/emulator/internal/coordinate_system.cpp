@@ -45,7 +45,7 @@ int CoordinateSystem::point_to(int program, double label) {
     }
     at_ = {program > 0 ? program : Card::rotary(number_), 0};
     calls_.clear();
-    const Program* const found = card_->program(at_.program);
+    const StoredProgram* const found = card_->program(at_.program);
     constexpr double labels = 100'000.0;
     const int place = found == nullptr ? -1 : found->place_of(static_cast<int>(std::lround(label * labels)));
     pointed_ = place >= 0;
@@ -93,7 +93,7 @@ int CoordinateSystem::run(bool one_step) {
         stepping_ = one_step;
         return 0;
     }
-    Program* const program = pointed_ ? card_->program(at_.program) : nullptr;
+    StoredProgram* const program = pointed_ ? card_->program(at_.program) : nullptr;
     const bool awaits = at_.program < 0 && card_->rotary_open;
     if (program == nullptr || (program->statements().empty() && !awaits)) {
         return no_program;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/pmac/emulator/internal/path.h"
-#include "core/pmac/emulator/internal/program.h"
+#include "core/pmac/emulator/internal/stored_program.h"
 
 #include <array>
 #include <cstdint>

@@ -13,7 +13,7 @@ void CoordinateSystem::calculate(int statements) {
     }
     int back = 0;
     for (int n = 0; n < statements && calculating_ && running_; ++n) {
-        const Program* const program = card_->program(at_.program);
+        const StoredProgram* const program = card_->program(at_.program);
         const auto count = program == nullptr ? 0 : static_cast<int>(program->statements().size());
         if (at_.statement >= count) {
             if (at_.program < 0 && card_->rotary_open) {
@@ -86,7 +86,7 @@ void CoordinateSystem::fail() {
 
 CoordinateSystem::Next CoordinateSystem::go_to_label(int number, double label, bool come_back) {
     constexpr std::size_t deepest = 15;
-    Program* const program = card_->program(number);
+    StoredProgram* const program = card_->program(number);
     const bool exists = program != nullptr && (program->sound() || program->join());
     const int place =
         exists && std::abs(label) < 1e6 ? program->place_of(static_cast<int>(std::lround(label))) : -1;

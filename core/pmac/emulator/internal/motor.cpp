@@ -12,7 +12,7 @@ constexpr std::int64_t limits_off = 1 << 17;
 constexpr std::int64_t amplifier_always_on = 1 << 16;
 constexpr std::int64_t fault_off = 1 << 20;
 
-double counts_a_line(int decode) {
+double counts_per_line(int decode) {
     constexpr int quarter = 4;
     switch (decode % quarter) {
     case 3:
@@ -29,7 +29,7 @@ double counting(const PmacPlant& plant, int decode) {
     constexpr int counter_clockwise = 4;
     const int own = plant.decode.value_or(decode);
     const double sign = (decode >= counter_clockwise) == (own >= counter_clockwise) ? 1.0 : -1.0;
-    return sign * counts_a_line(decode) / counts_a_line(own);
+    return sign * counts_per_line(decode) / counts_per_line(own);
 }
 
 } // namespace

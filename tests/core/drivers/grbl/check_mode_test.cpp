@@ -1,6 +1,6 @@
 // A program that an emulated controller reads in its check mode.
 #include "core/base/error.h"
-#include "core/drivers/grbl/internal/session.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 
 #include <gmock/gmock.h>

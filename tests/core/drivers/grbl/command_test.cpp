@@ -1,7 +1,7 @@
 // Single lines, settings, and block after block, on an emulated Grbl.
 #include "core/base/error.h"
-#include "core/drivers/grbl/internal/session.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
+#include "core/drivers/mdi_lines.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include "tests/core/drivers/fault_campaign.h"
 
 #include "core/base/error.h"
-#include "core/drivers/grbl/internal/session.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 #include "core/jobs/dispatcher.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 #include "tests/core/drivers/grbl/wire_driver.h"

@@ -5,8 +5,8 @@
 #include "core/base/units.h"
 #include "core/drivers/grbl/codes.h"
 #include "core/drivers/grbl/internal/axis_limits.h"
-#include "core/drivers/grbl/internal/session.h"
-#include "core/jobs/survey.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
+#include "core/jobs/program_check.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 
 #include <gmock/gmock.h>
@@ -123,7 +123,7 @@ TEST(GrblFirmware, AGrblForMoreAxesIsOne) {
 }
 
 TEST(GrblFirmware, SomebodyElseIsQuoted) {
-    Session session;
+    GrblSession session;
     session.opened(0.0);
     session.receive("Smoothie\r\n", 0.1);
     for (double now = 0.1; now < 10.0 && !session.greeted(); now += 0.1) {
@@ -356,7 +356,7 @@ TEST(GrblFirmware, ErrorsAndAlarmsAreThoseOfTheFirmware) {
 
 TEST(GrblFirmware, AProgramForAxesThatTheMachineLacksIsRefused) {
     const auto found = [](std::vector<program::ProgramAxis> axes) {
-        return jobs::survey(
+        return jobs::check_program(
             "G21 G90\nG0 X1 A90 B10\nM30\n",
             "five.ngc",
             {.dialect = gcode::Dialect::grbl, .axes = std::move(axes), .start = {}, .offsets = {}});

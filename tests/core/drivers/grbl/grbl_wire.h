@@ -1,7 +1,7 @@
 // A Grbl session and an emulated Grbl with a wire between them.
 #pragma once
 
-#include "core/drivers/grbl/internal/session.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 #include "core/emulators/grbl/grbl_emulator.h"
 #include "tests/core/drivers/session_wire.h"
 #include "tests/core/emulators/grbl/stored_settings.h"
@@ -30,14 +30,14 @@ struct GrblHolder {
     emulators::GrblEmulator grbl;
 };
 
-class GrblWire : public GrblHolder, public SessionWire<drivers::grbl::Session, emulators::GrblEmulator> {
+class GrblWire : public GrblHolder, public SessionWire<drivers::grbl::GrblSession, emulators::GrblEmulator> {
 public:
     explicit GrblWire(const links::FaultSpec& faults = {},
                       emulators::GrblEmulatorOptions options = {},
                       drivers::grbl::SessionSettings settings = {},
                       const std::string& setup = {})
         : GrblHolder{emulators::GrblEmulator(std::move(options))},
-          SessionWire(grbl, drivers::grbl::Session(settings), 0.005) {
+          SessionWire(grbl, drivers::grbl::GrblSession(settings), 0.005) {
         greet();
         store_settings(grbl, setup);
         run_until([] { return false; }, setup.empty() ? 0.0 : 0.5);

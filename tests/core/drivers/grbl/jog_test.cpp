@@ -3,7 +3,7 @@
 // most 0.1 s and the time v / a that braking takes at its acceleration a, where v is the greatest speed that
 // it still comes to (it may be speeding up, and Grbl has prepared the next 50 ms).
 #include "core/base/error.h"
-#include "core/drivers/grbl/internal/session.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 
 #include <fmt/format.h>

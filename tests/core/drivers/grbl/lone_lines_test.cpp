@@ -185,7 +185,7 @@ TEST(GrblOpening, KnowsThatTheBoardBeganAnew) {
     GrblWire wire; // which heard the greeting
     EXPECT_TRUE(wire.session.readout().began_anew);
     EXPECT_THAT(wire.session.status().position_doubt, testing::Not(testing::IsEmpty()));
-    wire.session = Session();
+    wire.session = GrblSession();
     wire.session.opened(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
     EXPECT_FALSE(wire.session.readout().began_anew);

@@ -125,7 +125,7 @@ TEST(GrblPositionDoubt, EndsWithHoming) {
 TEST(GrblPositionDoubt, IsThereFromTheStartOfAControllerThatWasSwitchedOnOrIsLocked) {
     GrblWire wire;
     const auto connect_again = [&] {
-        wire.session = Session();
+        wire.session = GrblSession();
         wire.session.opened(wire.now);
         wire.run_until([&] { return wire.session.greeted(); }, 10.0);
     };

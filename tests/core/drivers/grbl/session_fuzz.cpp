@@ -1,8 +1,7 @@
 // Any bytes from a controller: the session stays in one of its states with finite numbers, claims no more
 // than it sent, and sends nothing that could begin motion once it is in alarm.
-#include "core/drivers/grbl/internal/session.h"
-
 #include "core/base/error.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +19,7 @@ millwright::program::Listing program() {
     return listing;
 }
 
-void check(const drivers::grbl::Session& session) {
+void check(const drivers::grbl::GrblSession& session) {
     const drivers::DriverStatus status = session.status();
     expects(status.position.size() == 0 || status.position.allFinite(), "positions are finite");
     expects(status.executed_blocks >= 0 && status.executed_blocks <= 4, "no more is claimed than there is");
@@ -32,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes(reinterpret_cast<const char*>(data), size);
-    drivers::grbl::Session session;
+    drivers::grbl::GrblSession session;
     double now = 0.0;
     session.opened(now);
     bool started = false;

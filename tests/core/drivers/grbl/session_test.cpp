@@ -1,6 +1,5 @@
-#include "core/drivers/grbl/internal/session.h"
-
 #include "core/base/error.h"
+#include "core/drivers/grbl/internal/grbl_session.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
 
 #include <gmock/gmock.h>
@@ -404,7 +403,7 @@ TEST(GrblSession, WakesAControllerThatALimitSwitchHasMadeDeaf) {
     GrblWire wire;
     wire.grbl.raise_alarm();
     (void)wire.grbl.take_output(); // before anybody listened
-    wire.session = Session();
+    wire.session = GrblSession();
     wire.session.opened(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
     EXPECT_FALSE(wire.session.stranger()) << wire.session.stranger()->message;
@@ -416,7 +415,7 @@ TEST(GrblSession, WakesAControllerThatALimitSwitchHasMadeDeaf) {
 void find_moving(GrblWire& wire) {
     wire.grbl.receive("G1 X50 F600\nG1 Y20\n");
     wire.grbl.advance(0.1);
-    wire.session = Session();
+    wire.session = GrblSession();
     wire.session.opened(wire.now);
     wire.sent.clear();
     EXPECT_TRUE(wire.run_until([&] { return wire.session.greeted(); }, 10.0));
@@ -490,7 +489,7 @@ TEST(GrblSession, LeavesWhatItFoundMovingWhenTheLinkIsDropped) {
 
 TEST(GrblSession, SurvivesALimitSwitchWhileItIsBeingAsked) {
     GrblWire wire;
-    wire.session = Session();
+    wire.session = GrblSession();
     wire.session.opened(wire.now);
     wire.sent.clear();
     ASSERT_TRUE(wire.run_until([&] { return wire.sent.find("$$") != std::string::npos; }, 10.0));

@@ -13,7 +13,7 @@ namespace {
 using test::GrblWire;
 
 constexpr int streamed_blocks = 3000;
-constexpr double blocks_a_second = 1000.0;
+constexpr double blocks_per_second = 1000.0;
 constexpr int full = 15; // blocks that the planner holds
 
 /// 0.1 mm each at 100 mm/s, which the planner's 15 blocks let a machine with this acceleration go.
@@ -58,20 +58,20 @@ TEST(GrblStreaming, KeepsThePlannerFullAtAThousandBlocksASecond) {
     const Measured measured = stream(0.0);
     EXPECT_GE(measured.least_planned, 13);
     EXPECT_LE(measured.least_planned, full);
-    EXPECT_NEAR(measured.rate, blocks_a_second, 0.01 * blocks_a_second);
+    EXPECT_NEAR(measured.rate, blocks_per_second, 0.01 * blocks_per_second);
 }
 
 TEST(GrblStreaming, BearsALinkThatTakesItsTime) {
     const Measured measured = stream(0.005); // s at most, each way
     EXPECT_GE(measured.least_planned, 8);
     EXPECT_LE(measured.least_planned, full);
-    EXPECT_NEAR(measured.rate, blocks_a_second, 0.01 * blocks_a_second);
+    EXPECT_NEAR(measured.rate, blocks_per_second, 0.01 * blocks_per_second);
 }
 
 TEST(GrblStreaming, TellsALinkThatIsTooSlow) {
     const Measured measured = stream(0.2);
     EXPECT_LT(measured.least_planned, full);
-    EXPECT_LT(measured.rate, 0.9 * blocks_a_second);
+    EXPECT_LT(measured.rate, 0.9 * blocks_per_second);
 }
 
 } // namespace

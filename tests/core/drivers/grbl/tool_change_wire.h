@@ -47,15 +47,15 @@ public:
             offsets.push_back({name, kinematics::AxisPositions(Vec3(axes[0], axes[1], axes[2]))});
         }
         using kinematics::AxisKind;
-        const jobs::Survey found =
-            jobs::survey(jobs::controller_text(job),
-                         "test.ngc",
-                         {.dialect = gcode::Dialect::grbl,
-                          .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
-                          .start = before.position,
-                          .offsets = offsets,
-                          .modes = before.modes,
-                          .watched = jobs::watched_lines(job)});
+        const jobs::ProgramCheck found = jobs::check_program(
+            jobs::controller_text(job),
+            "test.ngc",
+            {.dialect = gcode::Dialect::grbl,
+             .axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}},
+             .start = before.position,
+             .offsets = offsets,
+             .modes = before.modes,
+             .watched = jobs::watched_lines(job)});
         session.start(
             drivers::grbl::program_lines(*job.listing, "test.ngc"), now, {}, jobs::tool_changes(job, found));
     }

@@ -7,7 +7,7 @@
 #include "core/jobs/job_log.h"
 #include "core/jobs/point_job.h"
 #include "core/jobs/recovery.h"
-#include "core/jobs/way_on.h"
+#include "core/jobs/resume_point.h"
 #include "core/links/file_link.h"
 #include "tests/support/jobs.h"
 #include "tests/support/machines.h"
@@ -128,7 +128,7 @@ TEST(PointsDriver, AStopIsInTheLogWithWhatWasExecuted) {
     EXPECT_EQ(log.end(), jobs::JobEnd::stopped);
     EXPECT_EQ(log.executed_blocks(), outcome.executed_blocks);
     EXPECT_EQ(static_cast<std::int64_t>(bench.sent().size()), bench.driver.played().sent);
-    EXPECT_EQ(jobs::way_on(jobs::job_story(outcome.log_file)).why_the_beginning,
+    EXPECT_EQ(jobs::resume_point(jobs::job_story(outcome.log_file)).why_the_beginning,
               "points are always run from the first one");
 }
 

@@ -1,7 +1,7 @@
 // The virtual machine moved by hand: jogs, homing, single lines. "Stands within 100 ms": it begins to brake
 // at once, so that it stands after v / a.
 #include "core/base/error.h"
-#include "core/drivers/hand_lines.h"
+#include "core/drivers/mdi_lines.h"
 #include "core/drivers/virtual_machine/internal/virtual_axes.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"
 #include "tests/core/jobs/router.h"

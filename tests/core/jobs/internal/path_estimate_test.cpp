@@ -17,10 +17,10 @@ namespace {
 using internal::PathEstimate;
 
 PathEstimate estimate_of(const std::string& text) {
-    SurveySettings settings;
+    ProgramCheckSettings settings;
     settings.dialect = gcode::Dialect::grbl;
     settings.keep_path = true;
-    return {survey(text, "a.ngc", settings).path, Vec3::Zero()};
+    return {check_program(text, "a.ngc", settings).path, Vec3::Zero()};
 }
 
 int line_at(PathEstimate& estimate, const Vec3& at, int first, int last) {

@@ -58,7 +58,7 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
         ASSERT_EQ(plot.diagnostics.size(), 1U);
         EXPECT_EQ(plot.diagnostics.front().place.byte, bad.byte);
         EXPECT_THAT(plot.diagnostics.front().message, HasSubstr(bad.message));
-        ReaderSettings strict;
+        HpglSettings strict;
         strict.strictness = Strictness::strict;
         try {
             static_cast<void>(read_hpgl(bad.text, "bad.plt", strict));
@@ -162,7 +162,7 @@ TEST(BadPlots, NothingIsDrawnOnTheWayToAPositionTooFarAway) {
         EXPECT_THAT(plot.diagnostics.front().message, HasSubstr("two numbers may have run together"));
         EXPECT_NEAR(draw_length(plot.strokes), 10.0, 1e-12);
     }
-    ReaderSettings wide;
+    HpglSettings wide;
     wide.farthest = 1e6;
     EXPECT_TRUE(read_hpgl("SP1;PU0,0;PD8931039,800;PU;", "wide.plt", wide).diagnostics.empty());
 }
@@ -254,7 +254,7 @@ TEST(BadPlots, APenThatIsNotThereDrawsNothing) {
 }
 
 TEST(BadPlots, AGiganticPlotEndsWithAnError) {
-    ReaderSettings settings;
+    HpglSettings settings;
     settings.most_points = 100'000;
     settings.farthest = 1e9;
     for (const char* giant : {"SP1;LT2,0.1;PU0,0;PD1000000000,0;",
@@ -284,7 +284,7 @@ TEST(BadPlots, AnyBytesGiveFinitePoints) {
         for (int count = 0; count < 60; ++count) {
             text += n % 2 == 0 ? letters[random() % letters.size()] : static_cast<char>(random() % 256);
         }
-        ReaderSettings settings;
+        HpglSettings settings;
         settings.most_points = 10'000;
         try {
             for (const Stroke& stroke : read_hpgl(text, "junk.plt", settings).strokes) {

@@ -90,7 +90,7 @@ protected:
     }
 
     void expect_same_drawing(const std::string& bytes, FillMode fill = FillMode::outline) {
-        ReaderSettings settings;
+        HpglSettings settings;
         settings.fill = fill;
         settings.p2 = Vec2(33600.0, 47520.0); // the sheet that hp2xx assumes
         const Plot ours = read_hpgl(bytes, "plot.plt", settings);

@@ -75,7 +75,7 @@ TEST(HpglLineEnds, TheUsualWidthsAreReadWithANotice) {
         ASSERT_TRUE(plot.line_ends) << width;
         EXPECT_THAT(plot.line_ends->message, HasSubstr("are read as wraps within numbers"));
         EXPECT_EQ(notices(plot, "a.plt").front(), *plot.line_ends);
-        ReaderSettings strict;
+        HpglSettings strict;
         strict.strictness = Strictness::strict; // it is no fault
         EXPECT_EQ(read_hpgl(text, "a.plt", strict).strokes.front().points, whole.front().points);
     }
@@ -108,7 +108,7 @@ TEST(HpglLineEnds, AFileThatDoesNotShowItIsRefused) {
         refusal_of(text),
         HasSubstr("a.plt byte 14: it is not clear from the file whether line ends between two digits"));
     EXPECT_THAT(refusal_of(text), HasSubstr("--line-ends separate or join"));
-    ReaderSettings chosen;
+    HpglSettings chosen;
     chosen.line_ends = LineEnds::separate;
     EXPECT_EQ(read_hpgl(text, "a.plt", chosen).strokes.front().points.back(), Vec2(0.1, 0.0));
     chosen.line_ends = LineEnds::join;

@@ -13,21 +13,21 @@
 namespace millwright::plot {
 namespace {
 
-Plot read(const std::string& text, const ReaderSettings& settings = {}) {
+Plot read(const std::string& text, const HpglSettings& settings = {}) {
     Plot plot = read_hpgl(text, "test.plt", settings);
     EXPECT_TRUE(plot.diagnostics.empty()) << to_text(plot.diagnostics.front());
     return plot;
 }
 
 TEST(HpglReader, UnitsAreSetForEachAxis) {
-    ReaderSettings settings;
+    HpglSettings settings;
     settings.unit = {.x = 0.02, .y = 0.03};
     const Plot plot = read("SP1;PU0,0;PD100,100;", settings);
     EXPECT_LT((plot.strokes.at(0).points.back() - Vec2(2.0, 3.0)).norm(), 1e-12);
 }
 
 TEST(HpglReader, CircleWithoutARadiusIsADotAndReadingGoesOn) {
-    ReaderSettings strict;
+    HpglSettings strict;
     strict.strictness = Strictness::strict;
     for (const char* line_type : {"", "LT2;"}) {
         SCOPED_TRACE(line_type);
@@ -85,7 +85,7 @@ TEST(HpglReader, CommandsThatAMachineCannotFollowAreListed) {
 }
 
 TEST(HpglReader, NoticesHaveWhatIsWrongAndWhatIsLeftOut) {
-    ReaderSettings settings;
+    HpglSettings settings;
     settings.most_diagnostics = 1;
     const Plot plot = read_hpgl("IN;QX;QY;PC1;PC2;SP1;PU0,0;PD1,1;", "a.plt", settings);
     std::vector<std::string> lines;
@@ -106,7 +106,7 @@ TEST(HpglReader, CommentsAreNoCommands) {
 TEST(HpglReader, LineEndsSeparateNumbersWhereTheyCan) {
     EXPECT_EQ(read("SP1;PU0,0;PD400,0\n400,400\n;PU;").strokes.at(0).points.size(), 3U);
     EXPECT_EQ(read("SP1;PU0,0;PD40\n0,0;PU;").strokes.at(0).points.back(), Vec2(10.0, 0.0));
-    ReaderSettings join;
+    HpglSettings join;
     join.line_ends = LineEnds::join;
     EXPECT_EQ(read("SP1;PU0,0;PD40\n0,4\n00;PU;", join).strokes.at(0).points.back(), Vec2(10.0, 10.0));
 }
@@ -143,7 +143,7 @@ TEST(HpglReader, ChordsByDeviationStayWithinIt) {
 }
 
 TEST(HpglReader, FinerArcsStayWithinTheTolerance) {
-    ReaderSettings settings;
+    HpglSettings settings;
     settings.arc_tolerance = 0.001;
     const Plot plot = read("SP1;PU2000,2000;CI1000;", settings);
     const Vec2 centre(50.0, 50.0);
@@ -167,7 +167,7 @@ TEST(HpglReader, FillsAreHatchedAtTheirPitch) {
     const Plot plot = read("IP0,0,10000,7200;SP1;PU0,20;FT3,40,0;RA2000,3220;");
     EXPECT_EQ(plot.strokes.size(), 80U);
     EXPECT_NEAR(draw_length(plot.strokes), 80 * 50.0, 1e-9);
-    ReaderSettings none;
+    HpglSettings none;
     none.fill = FillMode::none;
     EXPECT_TRUE(read("SP1;PU0,20;FT3,40,0;RA2000,3220;", none).strokes.empty());
 }
@@ -195,7 +195,7 @@ TEST(HpglReader, CharactersBeyondAsciiAreListed) {
 }
 
 TEST(HpglReader, EverySampleIsReadStrictly) {
-    ReaderSettings strict;
+    HpglSettings strict;
     strict.strictness = Strictness::strict;
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("assets/samples/plot")) {

@@ -129,7 +129,7 @@ double worst_size_error(const PlotterUnit& unit) {
     for (int n = 0; n < 1899; ++n) {
         const double size = 1.0 + 0.5 * n;
         const auto units = static_cast<int>(std::lround(size / unit.x));
-        ReaderSettings settings;
+        HpglSettings settings;
         settings.unit = unit;
         const Plot plot =
             read_hpgl("IN;SP1;PU0,0;PD" + std::to_string(units) + ",0;PU;", "size.plt", settings);

@@ -4,8 +4,8 @@
 #include "core/arm/arm_file.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/units.h"
-#include "core/motion/arm_tour.h"
 #include "core/motion/planner.h"
+#include "core/motion/taught_points_motion.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_program.h"
 
@@ -121,7 +121,8 @@ TEST(MotionProgramS6, APlannedMotionEndsAtItsCountsAndStaysOnTheWay) {
     const arm::JointPositions home = arm::arm_home();
     arm::JointPositions end = home;
     end.head(4) += (arm::JointPositions(4) << 0.4, 0.2, -0.3, 0.1).finished();
-    const motion::Trajectory plan = motion::plan(motion::tour(arm, home, to(end, 0.5)), arm, {}, {});
+    const motion::Trajectory plan =
+        motion::plan(motion::motion_through(arm, home, to(end, 0.5)), arm, {}, {});
     std::string text = "I117=1 I217=1 I317=1 I417=1\n"; // as much acceleration as the plan takes
     for (const std::string& line : pmac_program(plan, arm_settings())) {
         text += line + "\n";
@@ -148,7 +149,7 @@ motion::Trajectory slow_plan(double share) {
     const arm::ArmModel arm = arm::read_arm("assets/arms/motoman-l3.json").arm;
     arm::JointPositions end = arm::arm_home();
     end.head(4) += (arm::JointPositions(4) << 0.4, 0.2, -0.3, 0.1).finished();
-    return motion::plan(motion::tour(arm, arm::arm_home(), to(end, share)), arm, {}, {});
+    return motion::plan(motion::motion_through(arm, arm::arm_home(), to(end, share)), arm, {}, {});
 }
 
 // Where the motion is even one move is enough; the thesis's sign of 1580 s did not fit at even steps.
@@ -197,7 +198,7 @@ TEST(MotionProgramS6, AJointThatTheCardDoesNotDriveIsRefused) {
     arm::JointPositions end = arm::arm_home();
     end[4] += 0.5;
     const motion::Trajectory plan =
-        motion::plan(motion::tour(arm, arm::arm_home(), to(end, 1.0)), arm, {}, {});
+        motion::plan(motion::motion_through(arm, arm::arm_home(), to(end, 1.0)), arm, {}, {});
     try {
         (void)pmac_program(plan, arm_settings());
         FAIL() << "joint 5 has no motor";

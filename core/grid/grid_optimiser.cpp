@@ -1,0 +1,12 @@
+#include "core/grid/grid_optimiser.h"
+
+namespace millwright::grid {
+
+OptimiserState run(GridOptimiser& optimiser, const Progress& progress) {
+    while (optimiser.advance(progress)) {
+        progress.check();
+    }
+    return optimiser.state();
+}
+
+} // namespace millwright::grid
