@@ -57,13 +57,26 @@ TEST_F(CheckCases, EachKindOfDifferenceIsFound) {
                       HasSubstr("DIFFERS text: lacks /3 moves/"),
                       HasSubstr("DIFFERS other: has /2 moves/"),
                       HasSubstr("DIFFERS number: 2 behind /lines,/, not 7 to 9"),
-                      HasSubstr("DIFFERS file: none.ngc lacks /X/"),
+                      HasSubstr("DIFFERS file: none.ngc is not there"),
                       HasSubstr("of an earlier command"),
                       HasSubstr("ok      right\n")));
     EXPECT_THAT(run.output, HasSubstr("7 cases, 6 differ"));
     EXPECT_THAT(check("case a\n" + check_it + "case b\n" + check_it, "--only b").output,
                 AllOf(HasSubstr("1 cases, 0 differ"), Not(HasSubstr("ok      a"))));
     EXPECT_EQ(check("case a\nruns x\n").exit_code, 2);
+    EXPECT_EQ(check("case a\n" + check_it + "lacks (\n").exit_code, 2);
+    EXPECT_EQ(check("case a\n" + check_it, "--only b").exit_code, 2);
+}
+
+TEST_F(CheckCases, FoldersMayHaveSpacesQuotesAndAmpersands) {
+    std::filesystem::create_directory(folder / "R & D's");
+    write_content(folder / "R & D's" / "a b.ngc", "G0 X1 Y1 Z3.5e-1\nM2\n");
+    write_content(folder / "R & D's" / "expected.txt",
+                  "case a\nrun gcode check '{in}/a b.ngc'\nvalue 2 2 nothing|lines,\n");
+    const auto script = std::filesystem::current_path() / "scripts" / "check-cases";
+    const ShellRun named =
+        shell(folder.path(), script.string() + " --program '" + program_file().string() + "' \"R & D's\"");
+    EXPECT_EQ(named.exit_code, 0) << named.output;
 }
 
 } // namespace

@@ -83,7 +83,7 @@ bool is_of_name(char letter) {
 }
 
 /// The line up to its comment, with blanks in place of literals.
-std::string code_of(std::string_view line) {
+std::string code_of_line(std::string_view line) {
     std::string code;
     char literal = 0;
     for (std::size_t n = 0; n < line.size(); ++n) {
@@ -105,7 +105,7 @@ std::string code_of(std::string_view line) {
 }
 
 void check_line(const TextFile& file, const Line& line, std::vector<Finding>& findings) {
-    const std::string code = code_of(line.text);
+    const std::string code = code_of_line(line.text);
     if (code.starts_with("#include")) {
         return;
     }

@@ -123,7 +123,7 @@ void MachinePanel::draw_findings(Ui& ui, const FrameState& now) const {
         return;
     }
     const auto& opened = *now.opened;
-    if (opened.start_notice && !now.connection.connected()) { // a connected machine knows where it is
+    if (opened.start_notice && !(now.connection.connected() && now.connection.status.position_known)) {
         ui.note(fmt::format("Line {}: {}.", opened.start_notice->place.line, opened.start_notice->message));
     }
     const std::size_t found = opened.errors.size() + opened.faults.size() + opened.findings.size();
