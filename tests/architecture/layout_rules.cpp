@@ -86,6 +86,9 @@ constexpr std::array tried_with = {
     TriedWith{"millwright::emulators", "millwright::posts"}, // programs that are written
     TriedWith{"millwright::cordic_machine", "millwright::jobs"},
     TriedWith{"millwright::pmac_service", "millwright::pmac"}, // a card to be set up
+    TriedWith{"millwright::cordic_machine",
+              "millwright::cordic_control"}, // the promises of the whole processor
+    TriedWith{"millwright::cordic_machine", "millwright::cordic_study"},
 };
 
 bool is_tried_with(std::string_view module, std::string_view later) {
