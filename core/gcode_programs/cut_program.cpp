@@ -45,6 +45,7 @@ public:
                    file,
                    {.chord_tolerance = settings.chord_tolerance,
                     .chord_length = settings.chord_length,
+                    .keeps_speed_changes = true,
                     .most_blocks = plot::most_program_points}) {}
 
     void move(const Move& move, const SourceLine& now) override { builder_.move(move, now); }
