@@ -200,11 +200,15 @@ struct MachineRun {
     gcode::MachineProgram found;
 };
 
-MachineRun machine_run(const GcodeOptions& options) {
+/// Which speeds of the spindle become blocks: those of its starts, or each S too.
+enum class SpindleSpeeds { of_starts, each };
+
+MachineRun machine_run(const GcodeOptions& options, SpindleSpeeds speeds) {
     auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
     gcode::MachineProgramSettings making;
     making.chord_length = options.chord_length;
+    making.keeps_speed_changes = speeds == SpindleSpeeds::each;
     gcode::MachineProgramBuilder builder(machine, options.file, making);
     gcode::Interpreter program(options.file, reader_settings(options), builder);
     program.run();
@@ -250,7 +254,7 @@ constexpr const char* machine_positions_remark =
 
 /// For another control.
 int convert_gcode(const GcodeOptions& options) {
-    MachineRun run = machine_run(options);
+    MachineRun run = machine_run(options, SpindleSpeeds::each);
     run.found.program.cutters = cutters_named_in(options.file);
     throw_first(run.found.lost);
     throw_first(run.found.unplaced);
@@ -409,7 +413,7 @@ int time(const GcodeOptions& options) {
 }
 
 int pulses(const GcodeOptions& options) {
-    const MachineRun run = machine_run(options);
+    const MachineRun run = machine_run(options, SpindleSpeeds::of_starts);
     print_warnings(run.found.unknown_positions());
     const motion::Trajectory trajectory =
         motion::plan(run.found.program, run.machine, planner_settings(options), Progress());

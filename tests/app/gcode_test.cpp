@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -148,6 +150,15 @@ TEST(Gcode, TheDialectDecides) {
     const Ended ended = run({"gcode", "check", loops, "--dialect", "grbl"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl does not support"));
+}
+
+TEST(Gcode, ConvertKeepsASpindleSpeedThatChangesWithoutM3) {
+    const ScratchFolder folder;
+    const std::string file = (folder.path() / "part.ngc").string();
+    write_content(file, "G21 G90 S1500 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nX20\nS800\nX30\nM2\n");
+    const Ended ended = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("X20.000\nS800 M3\nX30.000\n"));
 }
 
 TEST(Gcode, CanonPrintsInRs274sWords) {
