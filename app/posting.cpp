@@ -11,6 +11,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 namespace millwright::app {
 
@@ -70,9 +72,12 @@ PostedText posted(const program::Program& program,
     const std::filesystem::path file =
         project::post_path(choice.post, std::filesystem::current_path(), project::assets_folder());
     PostedText result{posts::read_post(file), {}, path_mode_changes(program)};
-    std::string top = remark;
-    if (top.empty() && result.format.positions == posts::PositionsOf::tip) {
-        top = tip_remark;
+    std::vector<std::string> top;
+    if (!remark.empty()) {
+        top.push_back(remark);
+    }
+    if (result.format.positions == posts::PositionsOf::tip) {
+        top.emplace_back(tip_remark);
     }
     result.text = posts::release(program,
                                  machine,
@@ -80,7 +85,7 @@ PostedText posted(const program::Program& program,
                                  {.text = {.name = posts::text_name(name),
                                            .line_numbers = choice.line_numbers,
                                            .path_tolerance = path_tolerance_of(program),
-                                           .remark = top},
+                                           .remarks = std::move(top)},
                                   .arc_tolerance = choice.arc_tolerance,
                                   .tip_tolerance = choice.tip_tolerance,
                                   .file = name + "." + result.format.extension});

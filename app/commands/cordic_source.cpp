@@ -65,6 +65,7 @@ cordic_machine::CordicProgram compiled(const CordicSource& source, const CordicA
     gcode::ReaderSettings reading;
     reading.any_tool = true;
     reading.most_errors = 100;
+    reading.may_lack_end = true; // HLT ends it
     if (!source.origin.empty()) {
         gcode::put_origin(reading, origin_from(source.origin));
     }
@@ -72,6 +73,9 @@ cordic_machine::CordicProgram compiled(const CordicSource& source, const CordicA
     program.run();
     refuse(program.errors());
     cordic_machine::CordicProgram made = builder.take();
+    if (auto notice = program.end_notice()) {
+        made.warnings.push_back(std::move(*notice));
+    }
     refuse(made.faults);
     refuse(made.unplaced);
     print_warnings(made.warnings);

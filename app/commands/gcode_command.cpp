@@ -101,7 +101,17 @@ void print_program_json(const gcode::Interpreter& program, std::int64_t moves) {
     if (program.further_errors() > 0) {
         answer["further_errors"] = program.further_errors();
     }
+    if (const std::optional<Diagnostic> notice = program.end_notice()) {
+        answer["warnings"] = diagnostics_json({*notice});
+    }
     fmt::print("{}\n", answer.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+/// A control that accepts a program without an end does not tell whether its file was cut off.
+void print_end_notice(const gcode::Interpreter& program) {
+    if (const std::optional<Diagnostic> notice = program.end_notice()) {
+        print_warnings({*notice});
+    }
 }
 
 /// Heidenhain's blocks, as far as our posts write them. Its reader ends with the first error.
@@ -151,6 +161,7 @@ int check(const GcodeOptions& options) {
     if (options.json) {
         print_program_json(program, moves.count());
     } else {
+        print_end_notice(program);
         for (const Diagnostic& error : program.errors()) {
             fmt::print(stderr, "millwright: {}\n", to_text(error));
         }
@@ -200,17 +211,33 @@ struct MachineRun {
     gcode::MachineProgram found;
 };
 
-MachineRun machine_run(const GcodeOptions& options) {
+/// Of a Grbl nothing comes at the end of its text.
+void end_program(program::Program& program) {
+    program::Block end;
+    end.kind = program::BlockKind::end;
+    end.target = program.blocks.empty() ? program.start : program.blocks.back().target;
+    program.blocks.push_back(std::move(end));
+}
+
+/// Which speeds of the spindle become blocks: those of its starts, or each S too.
+enum class SpindleSpeeds { of_starts, each };
+
+MachineRun machine_run(const GcodeOptions& options, SpindleSpeeds speeds) {
     auto machine = kinematics::read_machine(
         project::machine_path(options.machine, std::filesystem::current_path(), project::assets_folder()));
     gcode::MachineProgramSettings making;
     making.chord_length = options.chord_length;
+    making.keeps_speed_changes = speeds == SpindleSpeeds::each;
     gcode::MachineProgramBuilder builder(machine, options.file, making);
     gcode::Interpreter program(options.file, reader_settings(options), builder);
     program.run();
     throw_first(program.errors());
     gcode::MachineProgram found = builder.take();
     throw_first(found.faults);
+    if (program.end_notice()) {
+        print_end_notice(program);
+        end_program(found.program);
+    }
     return {std::move(machine), std::move(found)};
 }
 
@@ -250,7 +277,7 @@ constexpr const char* machine_positions_remark =
 
 /// For another control.
 int convert_gcode(const GcodeOptions& options) {
-    MachineRun run = machine_run(options);
+    MachineRun run = machine_run(options, SpindleSpeeds::each);
     run.found.program.cutters = cutters_named_in(options.file);
     throw_first(run.found.lost);
     throw_first(run.found.unplaced);
@@ -314,6 +341,7 @@ public:
         return more;
     }
     [[nodiscard]] const std::vector<Diagnostic>& errors() const { return reader_.errors(); }
+    [[nodiscard]] std::optional<Diagnostic> end_notice() const { return reader_.end_notice(); }
     [[nodiscard]] int block_count() const { return builder_.block_count(); }
     [[nodiscard]] gcode::MachineProgram rest() { return builder_.take(); }
 
@@ -384,6 +412,9 @@ EstimatedTime estimated_time(const GcodeOptions& options) {
         estimate.add(block);
     }
     std::vector<Diagnostic> warnings = rest.unknown_positions();
+    if (std::optional<Diagnostic> notice = stream.end_notice()) {
+        warnings.push_back(std::move(*notice));
+    }
     warnings.insert(warnings.end(), rest.beyond_travel.begin(), rest.beyond_travel.end());
     return {estimate.finish(), rest.length, count, std::move(warnings)};
 }
@@ -409,7 +440,7 @@ int time(const GcodeOptions& options) {
 }
 
 int pulses(const GcodeOptions& options) {
-    const MachineRun run = machine_run(options);
+    const MachineRun run = machine_run(options, SpindleSpeeds::of_starts);
     print_warnings(run.found.unknown_positions());
     const motion::Trajectory trajectory =
         motion::plan(run.found.program, run.machine, planner_settings(options), Progress());

@@ -285,11 +285,17 @@ void Interpreter::Parts::end_of_text() {
         if (!seen_text) {
             internal::refuse(1, "the program is empty");
         }
-        if (!is_grbl() && !end_refused && !is_lost) {
-            if (!settings.may_lack_end) {
-                internal::refuse(1, "the program has no end: M2, M30 or % is missing");
-            }
-            lacks_end = true;
+        if (end_refused || is_lost) {
+            return reset();
+        }
+        if (!is_grbl() && !settings.may_lack_end) {
+            internal::refuse(
+                1,
+                "the program has no end: M2, M30 or % is missing",
+                "LinuxCNC reports an error there; if the file is complete, add M2 as the last line");
+        }
+        lacks_end = true;
+        if (!is_grbl()) {
             internal::end_program(run, false);
         }
     } catch (const Refusal& refusal) {
@@ -477,8 +483,14 @@ SourcePlace Interpreter::place() const {
     return parts_->run.out.place();
 }
 
-bool Interpreter::lacks_end() const {
-    return parts_->lacks_end;
+std::optional<Diagnostic> Interpreter::end_notice() const {
+    if (!parts_->lacks_end) {
+        return std::nullopt;
+    }
+    return Diagnostic{{parts_->files.name_of(0)},
+                      fmt::format("the program does not end with {}; it was read to its last line",
+                                  parts_->is_grbl() ? "M2 or M30" : "M2, M30 or %"),
+                      parts_->is_grbl() ? "Grbl does not switch off the spindle and the coolant" : ""};
 }
 
 int Interpreter::line_count() const {

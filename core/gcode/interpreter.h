@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -44,8 +45,8 @@ public:
     /// How many lines of the program were come to.
     [[nodiscard]] int line_count() const;
     [[nodiscard]] const std::vector<Diagnostic>& errors() const;
-    /// The text ended without M2, M30 or %, see ReaderSettings::may_lack_end.
-    [[nodiscard]] bool lacks_end() const;
+    /// That the text ended without M2, M30 or %, where it may: for Grbl, and by ReaderSettings::may_lack_end.
+    [[nodiscard]] std::optional<Diagnostic> end_notice() const;
     /// How many errors came behind those, see ReaderSettings::read_on.
     [[nodiscard]] std::int64_t further_errors() const;
 

@@ -72,7 +72,7 @@ Parameters parse_parameter_file(std::string_view text, const std::filesystem::pa
 }
 
 Parameters read_parameter_file(const std::filesystem::path& file) {
-    return parse_parameter_file(read_file(file), file);
+    return parse_parameter_file(read_file(file, largest_parameter_file), file);
 }
 
 } // namespace millwright::gcode

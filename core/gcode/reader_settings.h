@@ -27,7 +27,7 @@ struct ReaderSettings {
     std::vector<std::filesystem::path> subroutine_folders;
     /// M codes above 199 that the machine's configuration defines; each comes as user_command.
     std::vector<int> remapped_m;
-    bool may_lack_end = false; ///< without M2, M30 or % the program ends with its last line
+    bool may_lack_end = false; ///< without M2, M30 or % the program ends with its last line, as for Grbl
     int most_errors = 1;       ///< reading stops behind so many
     bool read_on = false;      ///< it does not; the errors behind them are only counted
     /// Lines that may be executed again (loops, subroutines) before the program is taken for an endless one.

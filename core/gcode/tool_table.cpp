@@ -147,7 +147,7 @@ ToolTable parse_tool_table(std::string_view text, const std::filesystem::path& f
 }
 
 ToolTable read_tool_table(const std::filesystem::path& file) {
-    return parse_tool_table(read_file(file), file);
+    return parse_tool_table(read_file(file, largest_tool_table), file);
 }
 
 } // namespace millwright::gcode

@@ -6,6 +6,7 @@
 
 #include "core/gcode/axes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -41,7 +42,10 @@ struct ToolTable {
 /// Throws Error with line and column for anything that is no tool.
 [[nodiscard]] ToolTable parse_tool_table(std::string_view text, const std::filesystem::path& file);
 
-/// Throws Error also if `file` cannot be read.
+/// Bytes: LinuxCNC has at most 1000 tools, a line of 254 bytes each.
+inline constexpr std::size_t largest_tool_table = std::size_t{4} << 20U;
+
+/// Throws Error also if `file` cannot be read, or is larger.
 [[nodiscard]] ToolTable read_tool_table(const std::filesystem::path& file);
 
 } // namespace millwright::gcode

@@ -45,6 +45,7 @@ public:
                    file,
                    {.chord_tolerance = settings.chord_tolerance,
                     .chord_length = settings.chord_length,
+                    .keeps_speed_changes = true,
                     .most_blocks = plot::most_program_points}) {}
 
     void move(const Move& move, const SourceLine& now) override { builder_.move(move, now); }
@@ -151,9 +152,8 @@ read_by(const Begin& begin, const std::filesystem::path& file, const CutProgramS
     throw_first(interpreter.errors());
     CutProgram made = made_of(sink.take(), sink, file, settings);
     made.lines = interpreter.line_count();
-    if (interpreter.lacks_end()) {
-        made.notices.push_back(
-            {{file}, "the program does not end with M2, M30 or %; it was read to its last line", {}});
+    if (auto notice = interpreter.end_notice()) {
+        made.notices.push_back(std::move(*notice));
     }
     return made;
 }

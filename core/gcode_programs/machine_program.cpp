@@ -1,5 +1,6 @@
 #include "core/gcode_programs/machine_program.h"
 
+#include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/canon_frame.h"
 #include "core/gcode/chords.h"
@@ -193,6 +194,7 @@ private:
     std::optional<program::PathControl> path_; ///< none: not said yet
     std::optional<program::PathControl> path_before_cycle_;
     double rpm_ = 0.0;
+    double turning_ = 0.0; ///< -1: counter-clockwise, 0: stands
     int selected_tool_ = 0;
     std::pair<SourcePlace, std::string> comment_; ///< the last one, and its line
     bool pallet_moves_ = false;                   ///< and then the program stops
@@ -207,16 +209,16 @@ private:
     void turn_or_cool(const Command& command) {
         switch (command.kind) {
         case CommandKind::set_spindle_speed:
-            rpm_ = command.value;
-            result_.first_rpm = result_.first_rpm > 0.0 ? result_.first_rpm : std::abs(rpm_);
+            set_speed(command);
             break;
         case CommandKind::start_spindle_clockwise:
-            add(program::BlockKind::spindle_on, command.source).spindle_rpm = rpm_;
+            turn_spindle(1.0, command.source);
             break;
         case CommandKind::start_spindle_counterclockwise:
-            add(program::BlockKind::spindle_on, command.source).spindle_rpm = -rpm_;
+            turn_spindle(-1.0, command.source);
             break;
         case CommandKind::stop_spindle_turning:
+            turning_ = 0.0;
             add(program::BlockKind::spindle_off, command.source);
             break;
         case CommandKind::mist_on:
@@ -230,6 +232,26 @@ private:
         default:
             break;
         }
+    }
+
+    void set_speed(const Command& command) {
+        const bool changes = !exactly_equal(rpm_, command.value);
+        rpm_ = command.value;
+        result_.first_rpm = result_.first_rpm > 0.0 ? result_.first_rpm : std::abs(rpm_);
+        if (changes && settings_.keeps_speed_changes && std::abs(turning_) > 0.0) {
+            turn_spindle(turning_, command.source);
+        }
+    }
+
+    /// The S of a line comes before its M3 or M4: both are one block.
+    void turn_spindle(double turning, SourcePlace source) {
+        turning_ = turning;
+        auto& blocks = result_.program.blocks;
+        const bool said = settings_.keeps_speed_changes && !blocks.empty() && source.file == 0 &&
+                          blocks.back().kind == program::BlockKind::spindle_on &&
+                          blocks.back().source_line == source.line;
+        program::Block& block = said ? blocks.back() : add(program::BlockKind::spindle_on, source);
+        block.spindle_rpm = turning * rpm_;
     }
 
     static std::size_t index_of(char letter) {

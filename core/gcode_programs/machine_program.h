@@ -23,6 +23,9 @@ struct MachineProgramSettings {
     /// mm: arcs are cut into equal parts of at most this length along the arc, whatever the tolerance, as in
     /// the KMITL thesis of 2006 on forming software; not given: by the tolerance.
     std::optional<double> chord_length{};
+    /// An S while the spindle turns is a block of its own, at which planned motion stops, else left out: a
+    /// laser changes its power so in every line.
+    bool keeps_speed_changes = false;
     std::size_t most_faults = 100;
     std::size_t most_blocks = 8'000'000; ///< more are an Error: a few lines can ask for any number
     /// Where the axes stand at the start, in machine coordinates; none: at zero, or at their nearest limit.

@@ -7,7 +7,6 @@
 #include "core/program/retract.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +48,7 @@ std::string name_of_system(int system) {
 }
 
 Placement::Placement(const kinematics::MachineModel& machine, std::filesystem::path file, bool start_known)
-    : machine_(machine), file_(std::move(file)),
+    : machine_(machine), file_(std::move(file)), starts_(machine),
       known_(start_known ? program::AxisSet::all(machine.axis_count()) : program::AxisSet()),
       frame_used_(static_cast<std::size_t>(machine.axis_count())) {
     for (int n = 0; n < machine.axis_count(); ++n) {
@@ -65,16 +64,6 @@ void Placement::refuse(Kind kind, SourcePlace source, std::string_view line, cha
         placed.hint = std::move(hint);
         unplaced_.push_back(std::move(placed));
     }
-}
-
-std::string Placement::letters_of(const std::vector<int>& axes) const {
-    std::string text;
-    for (std::size_t n = 0; n < axes.size(); ++n) {
-        const bool last = n + 1 == axes.size();
-        text += n == 0 ? "" : last ? " and " : ", ";
-        text += letter_of(axes[n]);
-    }
-    return text;
 }
 
 void Placement::refuse_at(Kind kind, SourcePlace source, int column, Diagnostic found) {
@@ -166,6 +155,7 @@ void Placement::command(const Command& command, std::string_view line) {
         return take_rotation(command);
     case CommandKind::use_tool_length_offset:
         tool_ = in_plane();
+        starts_.use_tool(command.axes, unit_);
         return find_turned_place();
     case CommandKind::set_g92_offset:
         g92_known_ = static_cast<AxisBits>(command.mode);
@@ -259,6 +249,7 @@ void Placement::curve(SourcePlace source, std::string_view line) {
             expect_one_frame(n, source, line);
         }
     }
+    starts_.curve();
 }
 
 void Placement::move(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line) {
@@ -274,8 +265,14 @@ void Placement::move(const Move& move, const AxisValues& from, const AxisValues&
     take_words(move, line);
     if (!(named_ == program::AxisSet()) || !moving.empty()) {
         look_at_frame(move, moving, line);
-        note_first_move(move, moving);
+        starts_.move(move, from, to, {known_, named_, moving, knows_height(move)});
     }
+}
+
+/// Whether it is known where the move ends along the retract axis, as to the work.
+bool Placement::knows_height(const Move& move) const {
+    return move.words.frame == MoveFrame::work ||
+           (!machine_.linear_axes().empty() && frame_of(program::retract_axis(machine_).axis).is_machine());
 }
 
 /// An arc has its centre from where it begins, and the move onto a compensated path its direction; an axis
@@ -333,9 +330,7 @@ void Placement::take_words(const Move& move, std::string_view line) {
         if (!known_.contains(n) && !move.words.incremental) {
             known_.insert(n);
             starts_anywhere_ = true;
-            if (first_move_.line > 0) {
-                named_later_.emplace_back(n, move.source.line);
-            }
+            starts_.set(n, move.source.line);
         }
         if (known_.contains(n)) {
             named_.insert(n);
@@ -430,69 +425,8 @@ void Placement::look_at_reference(const Move& move,
     }
 }
 
-void Placement::note_first_move(const Move& move, const std::vector<int>& moving) {
-    if (first_move_.line > 0 || known_ == program::AxisSet::all(machine_.axis_count())) {
-        return;
-    }
-    if (move.kind == MoveKind::traverse && !machine_.linear_axes().empty()) {
-        program::AxisSet height;
-        height.insert(program::retract_axis(machine_).axis);
-        if (named_ == height) {
-            return; // to a safe height first, from wherever it is
-        }
-    }
-    first_move_ = move.source;
-    known_at_first_move_ = known_;
-    for (int n = 0; n < machine_.axis_count(); ++n) {
-        if (named_.contains(n) || std::ranges::find(moving, n) != moving.end()) {
-            first_moving_.push_back(n);
-        }
-    }
-}
-
-/// "sets Y and Z for the first time in line 3, A in line 5, never sets C".
-std::string Placement::when_set(const std::vector<int>& unknown) const {
-    std::vector<std::pair<int, std::vector<int>>> lines; // in the order of the program
-    std::vector<int> never = unknown;
-    for (const auto& [axis, line] : named_later_) {
-        if (lines.empty() || lines.back().first != line) {
-            lines.emplace_back(line, std::vector<int>());
-        }
-        lines.back().second.push_back(axis);
-        std::erase(never, axis);
-    }
-    std::vector<std::string> parts;
-    for (const auto& [line, axes] : lines) {
-        parts.push_back(parts.empty()
-                            ? fmt::format("sets {} for the first time in line {}", letters_of(axes), line)
-                            : fmt::format("{} in line {}", letters_of(axes), line));
-    }
-    if (!never.empty()) {
-        parts.push_back("never sets " + letters_of(never));
-    }
-    return fmt::format("{}", fmt::join(parts, ", "));
-}
-
 std::optional<Diagnostic> Placement::start_notice() const {
-    if (first_move_.line == 0) {
-        return std::nullopt;
-    }
-    std::vector<int> unknown;
-    for (int n = 0; n < machine_.axis_count(); ++n) {
-        if (!known_at_first_move_.contains(n)) {
-            unknown.push_back(n);
-        }
-    }
-    const bool several = unknown.size() > 1;
-    return Diagnostic{{file_, first_move_.line, 0, -1},
-                      fmt::format("the start {} of {} {} unknown: {} {} here, but the program {}",
-                                  several ? "positions" : "position",
-                                  letters_of(unknown),
-                                  several ? "are" : "is",
-                                  letters_of(first_moving_),
-                                  first_moving_.size() > 1 ? "move" : "moves",
-                                  when_set(unknown)),
-                      "move the tool clear of obstacles before the start"};
+    return starts_.notice(file_);
 }
 
 } // namespace millwright::gcode

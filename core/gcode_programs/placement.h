@@ -4,6 +4,7 @@
 
 #include "core/base/error.h"
 #include "core/gcode/canon.h"
+#include "core/gcode_programs/internal/start_moves.h"
 #include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
 #include "core/program/program.h"
@@ -39,7 +40,8 @@ public:
     /// What depends on a position that was not said, the first of each kind.
     [[nodiscard]] std::vector<Diagnostic> take_unplaced() { return std::move(unplaced_); }
     /// That axes move while others have no known position yet, all of them in one sentence, with the line
-    /// that sets each; nothing where the first move names all, be it behind rapid moves to a safe height.
+    /// that sets each; nothing where the first move names all, be it behind rapid moves of the retract axis
+    /// to heights above the work's zero and above everything that is cut later.
     [[nodiscard]] std::optional<Diagnostic> start_notice() const;
 
 private:
@@ -86,13 +88,12 @@ private:
     void expect_one_frame(int axis, SourcePlace source, std::string_view line);
     void
     look_at_reference(const Move& move, const AxisValues& from, const AxisValues& to, std::string_view line);
-    void note_first_move(const Move& move, const std::vector<int>& moving);
-    [[nodiscard]] std::string when_set(const std::vector<int>& unknown) const;
+    [[nodiscard]] bool knows_height(const Move& move) const;
     [[nodiscard]] char letter_of(int axis) const { return machine_.axis(axis).letter; }
-    [[nodiscard]] std::string letters_of(const std::vector<int>& axes) const;
 
     const kinematics::MachineModel& machine_;
     std::filesystem::path file_;
+    internal::StartMoves starts_;
     std::vector<std::size_t> index_of_; ///< of each axis among axis_letters
     program::AxisSet known_, named_;
     bool starts_anywhere_ = false;
@@ -110,10 +111,6 @@ private:
     std::vector<std::optional<Frame>> frame_used_; ///< of each axis by the moves so far
     std::set<Kind> refused_;
     std::vector<Diagnostic> unplaced_;
-    SourcePlace first_move_; ///< that begins while an axis has no known position
-    program::AxisSet known_at_first_move_;
-    std::vector<int> first_moving_;
-    std::vector<std::pair<int, int>> named_later_; ///< than the first move: axis, line
 };
 
 /// G54 to G59.3, of 1 to 9.

@@ -43,9 +43,7 @@ public:
 
     program::Listing take() {
         frame(format_.blocks.top);
-        if (!settings_.remark.empty()) {
-            comment(settings_.remark);
-        }
+        std::ranges::for_each(settings_.remarks, [this](const std::string& remark) { comment(remark); });
         for (const program::ProgramCutter& cutter : program_.cutters) {
             comment(program::cutter_comment(cutter, format_.length_unit()));
         }

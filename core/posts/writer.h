@@ -10,6 +10,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace millwright::posts {
 
@@ -17,8 +18,8 @@ namespace millwright::posts {
 struct TextSettings {
     std::string name = "PROGRAM"; ///< letters, digits, '-' and '_'
     bool line_numbers = false;
-    double path_tolerance = 0.005; ///< mm; 0: exact path
-    std::string remark = {};       ///< comment at the top, as lines as long as they may be; empty: none
+    double path_tolerance = 0.005;         ///< mm; 0: exact path
+    std::vector<std::string> remarks = {}; ///< comments at the top, each as lines as long as they may be
 };
 
 /// `name` as controls take it: capitals, digits, '-' and '_', at most 24 of them; PROGRAM if nothing is left.

@@ -280,9 +280,9 @@ std::string tool_length_text(const ToolInput& input, const kinematics::MachineMo
                                                   : "as long as",
                            shortest(*length - offset));
     }
-    return machine.swings_tool()
-               ? text + "; the head tilts the tool: axis positions are valid for this length only"
-               : text;
+    return machine.swings_tool() ? text + "; the head tilts the tool: without tip control, axis positions "
+                                          "are valid for this length only"
+                                 : text;
 }
 
 std::string tool_text(const ToolInput& input) {

@@ -160,6 +160,21 @@ TEST(Cordic, ProgramsThatCannotRunSayWhy) {
     EXPECT_EQ(run({"cordic", "disasm", file.string() + ".bin"}).exit_code, 1);
 }
 
+TEST(Cordic, RunsAProgramWithoutAnEndToItsLastLineWithANotice) {
+    const ScratchFolder scratch;
+    const std::string file = (scratch.path() / "part.ngc").string();
+    write_content(file, "G21 G90\nG0 X1 Y1 Z5\nG1 Z-1 F100\n");
+    const Ended ended = run({"cordic", "run", file});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(
+        ended.err,
+        HasSubstr("part.ngc: the program does not end with M2, M30 or %; it was read to its last line\n"));
+    write_content(file, "G21 G90\nG0 X1 Y1 Z5\nG1 Z-1 F100\nM2\n");
+    const Ended whole = run({"cordic", "run", file});
+    EXPECT_EQ(whole.err, "");
+    EXPECT_EQ(whole.out, ended.out);
+}
+
 TEST(Cordic, SaysWhatIsWrongWithEveryKindOfBadInput) {
     struct Bad {
         std::string name, text, message;

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 namespace {
@@ -148,6 +150,50 @@ TEST(Gcode, TheDialectDecides) {
     const Ended ended = run({"gcode", "check", loops, "--dialect", "grbl"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Grbl does not support"));
+}
+
+// LinuxCNC reports an error at the end of such a file, Grbl reads lines as they come.
+TEST(Gcode, AProgramWithoutAnEndIsReadWithANoticeWhereItsControlAcceptsIt) {
+    const ScratchFolder folder;
+    const std::string file = (folder.path() / "part.nc").string();
+    write_content(file, "G21 G90 S1000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\n");
+    const std::string notice = "part.nc: the program does not end with M2 or M30; it was read to its last "
+                               "line (Grbl does not switch "
+                               "off the spindle and the coolant)\n";
+    const std::vector<std::vector<std::string>> commands{
+        {"gcode", "check", file},
+        {"gcode", "time", file, "--machine", "router-xyz"},
+        {"gcode", "pulses", file, "--machine", "router-xyz"},
+        {"gcode", "convert", file, "--machine", "router-xyz", "--post", "linuxcnc-xyz"}};
+    for (std::vector<std::string> words : commands) {
+        const Ended refused = run(words);
+        EXPECT_EQ(refused.exit_code, 1) << words[1];
+        EXPECT_THAT(
+            refused.err,
+            HasSubstr("part.nc:3:1: the program has no end: M2, M30 or % is missing (LinuxCNC reports an "
+                      "error there"))
+            << words[1];
+        words.insert(words.end(), {"--dialect", "grbl"});
+        const Ended ended = run(words);
+        EXPECT_EQ(ended.exit_code, 0) << words[1] << ended.err;
+        EXPECT_THAT(ended.err, HasSubstr(notice)) << words[1];
+        if (words[1] == "convert") {
+            EXPECT_THAT(ended.out, HasSubstr("\nM2\n"));
+        }
+    }
+    const Ended json = run({"gcode", "check", file, "--dialect", "grbl", "--json"});
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("warnings").size(), 1U);
+    write_content(file, "G0 X1\nM30\n");
+    EXPECT_EQ(run({"gcode", "check", file, "--dialect", "grbl"}).err, "");
+}
+
+TEST(Gcode, ConvertKeepsASpindleSpeedThatChangesWithoutM3) {
+    const ScratchFolder folder;
+    const std::string file = (folder.path() / "part.ngc").string();
+    write_content(file, "G21 G90 S1500 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nX20\nS800\nX30\nM2\n");
+    const Ended ended = run({"gcode", "convert", file, "--machine", "router-xyz", "--post", "grbl"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_THAT(ended.out, HasSubstr("X20.000\nS800 M3\nX30.000\n"));
 }
 
 TEST(Gcode, CanonPrintsInRs274sWords) {

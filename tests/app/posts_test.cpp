@@ -421,10 +421,22 @@ TEST_F(Posts, AProgramForTipControlSaysWhatItsHeaderDoesNotHoldFor) {
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     const std::string tip = content_of(fs::path(out) / "program.h");
     EXPECT_THAT(tip, HasSubstr(note));
+    EXPECT_THAT(tip, HasSubstr("without tip control"));
     EXPECT_THAT(tip, HasSubstr("positions are valid for this length only"));
     ended = run({"plan", project, "--out", out, "--post", "linuxcnc"});
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(content_of(fs::path(out) / "program.ngc"), testing::Not(HasSubstr(note)));
+}
+
+/// One remark at the top took the place of the other.
+TEST_F(Posts, AProgramForTipControlThatIsPlacedOnTheMachineSaysBoth) {
+    write_content(part, "G21 G90 G94\nG0 X10 Y0 Z50 A5 C30\nG1 Z20 F600\nM2\n");
+    const Ended ended = convert("ac-table", "fanuc-tcp", {"--origin", "0,0,-10"});
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    const std::size_t tip = ended.out.find("POSITIONS OF THE TOOL TIP");
+    const std::size_t machine = ended.out.find("ALL POSITIONS ARE MACHINE POSITIONS");
+    EXPECT_NE(tip, std::string::npos) << ended.out;
+    EXPECT_LT(machine, tip) << ended.out;
 }
 
 TEST_F(Posts, RunTakesAThreeAxisProjectToAnEmulatedController) {

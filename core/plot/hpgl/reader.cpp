@@ -13,10 +13,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 namespace millwright::plot {
@@ -279,39 +277,8 @@ std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& f
     return all;
 }
 
-namespace {
-
-constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30U; // plots of a million commands take 10 MB
-
-/// Of a pipe or a device nobody knows the size before.
-std::string read_pipe(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string bytes;
-    std::vector<char> piece(std::size_t{1} << 20U);
-    while (in) {
-        in.read(piece.data(), std::ssize(piece));
-        bytes.append(piece.data(), static_cast<std::size_t>(in.gcount()));
-        if (bytes.size() > most_bytes) {
-            throw Error("the plot is larger than 1 GiB, the maximum size", file);
-        }
-    }
-    return bytes;
-}
-
-} // namespace
-
 Plot read_hpgl_file(const std::filesystem::path& file, const HpglSettings& settings) {
-    std::error_code none;
-    if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none) &&
-        !std::filesystem::is_directory(file, none)) {
-        return read_hpgl(read_pipe(file), file, settings);
-    }
-    if (const std::uintmax_t size = std::filesystem::file_size(file, none); !none && size > most_bytes) {
-        throw Error(fmt::format("the file has {:.1f} GB, but plots can be at most 1 GiB",
-                                1e-9 * static_cast<double>(size)),
-                    file);
-    }
-    return read_hpgl(read_file(file), file, settings);
+    return read_hpgl(read_file(file, largest_plot), file, settings);
 }
 
 } // namespace millwright::plot

@@ -7,6 +7,7 @@
 #include "core/plot/hpgl/hpgl_settings.h"
 #include "core/plot/strokes.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -59,7 +60,10 @@ read_hpgl(std::string_view bytes, const std::filesystem::path& file, const HpglS
 /// is, and each command that is left out, with how often and why.
 [[nodiscard]] std::vector<Diagnostic> notices(const Plot& plot, const std::filesystem::path& file);
 
-/// Reads the file itself. Throws Error if it cannot be read, or is larger than 1 GiB, too.
+/// Bytes: more than the points that a plot may have take, ten bytes each.
+inline constexpr std::size_t largest_plot = std::size_t{256} << 20U;
+
+/// Reads the file itself. Throws Error if it cannot be read, or is larger than `largest_plot`, too.
 [[nodiscard]] Plot read_hpgl_file(const std::filesystem::path& file, const HpglSettings& settings = {});
 
 } // namespace millwright::plot

@@ -1,7 +1,12 @@
+#include "core/gcode/canon_printer.h"
+#include "core/gcode/interpreter.h"
 #include "tests/core/gcode/read_program.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
 
 namespace millwright::gcode {
 namespace {
@@ -30,8 +35,19 @@ TEST(Grbl, TakesItsSubset) {
     EXPECT_EQ(program.errors.size(), 0U) << (program.errors.empty() ? "" : to_text(program.errors.front()));
 }
 
-TEST(Grbl, NeedsNoEnd) {
-    EXPECT_EQ(grbl_refusal("G0 X1"), "");
+TEST(Grbl, NeedsNoEndAndSaysThatThereIsNone) {
+    const auto notice_of = [](const std::string& text) {
+        CanonPrinter sink([](std::string_view) {});
+        Interpreter program(text, "part.nc", grbl(), sink);
+        program.run();
+        EXPECT_TRUE(program.errors().empty());
+        return program.end_notice() ? to_text(*program.end_notice()) : std::string();
+    };
+    EXPECT_EQ(notice_of("G0 X1"),
+              "part.nc: the program does not end with M2 or M30; it was read to its last line (Grbl does not "
+              "switch off the spindle and the coolant)");
+    EXPECT_EQ(notice_of("G0 X1\nM2\n"), "");
+    EXPECT_EQ(notice_of("%\nG0 X1\nM30\n%\n"), "");
 }
 
 TEST(Grbl, KeepsTheFeedWhenItsModeIsSetAgain) {

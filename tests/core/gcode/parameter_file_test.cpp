@@ -44,6 +44,16 @@ TEST(ParameterFile, IsRefusedWithTheLine) {
     EXPECT_THAT(refusal_of("31 1\n31 2\n"), HasSubstr(":2: #31 is given twice"));
 }
 
+TEST(ParameterFile, HasABoundOfItsOwn) {
+    std::string fault;
+    try {
+        static_cast<void>(read_parameter_file("/dev/zero"));
+    } catch (const Error& error) {
+        fault = error.what();
+    }
+    EXPECT_EQ(fault, "/dev/zero: larger than 4 MiB, the maximum that can be read");
+}
+
 TEST(ParameterFile, IsInForceAtTheStart) {
     ReaderSettings settings;
     settings.parameters = parse_parameter_file("31 7\n5221 10\n5163 -4\n", "linuxcnc.var");

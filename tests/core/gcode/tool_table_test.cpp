@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace millwright::gcode {
 namespace {
 
@@ -31,6 +33,16 @@ TEST(ToolTableFile, AByteOrderMarkIsSkipped) {
     const ToolTable table = parse_tool_table("\xEF\xBB\xBFT1 P2 Z3 D8.5\n", "t");
     ASSERT_EQ(table.tools.size(), 1U);
     EXPECT_EQ(table.tools[0].number, 1);
+}
+
+TEST(ToolTableFile, HasABoundOfItsOwn) {
+    std::string fault;
+    try {
+        static_cast<void>(read_tool_table("/dev/zero"));
+    } catch (const Error& error) {
+        fault = error.what();
+    }
+    EXPECT_EQ(fault, "/dev/zero: larger than 4 MiB, the maximum that can be read");
 }
 
 TEST(ToolTableFile, RefusesWithThePlace) {

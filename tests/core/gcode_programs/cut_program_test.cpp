@@ -246,6 +246,24 @@ TEST(CutPrograms, ASpindleThatIsOnlySetTurnsAtThatSpeed) {
     EXPECT_EQ(read_cut("S1500\nG0 X0 Y0 Z5\nS2000 M3\nG1 Z-1 F60\nX5\nM2\n").spindle_rpm, 2000.0);
 }
 
+TEST(CutPrograms, ALaterSpindleSpeedIsReportedWithItsLineWithOrWithoutM3) {
+    for (const std::string change : {"S800", "S800 M3", "M4 S1500"}) {
+        const CutProgram program =
+            read_cut("S1500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX20\n" + change + "\nX30\nM2\n");
+        EXPECT_EQ(program.spindle_rpm, 1500.0);
+        ASSERT_EQ(program.notices.size(), 1U) << change;
+        EXPECT_EQ(program.notices[0].place.line, 5) << change;
+        EXPECT_THAT(
+            program.notices[0].message,
+            HasSubstr(change[0] == 'S' ? "a second spindle speed: ignored" : "reverse spindle rotation"));
+        ASSERT_EQ(program.strokes.size(), 1U);
+        EXPECT_EQ(program.strokes[0].points.back(), Vec2(30, 0));
+    }
+    EXPECT_TRUE(
+        read_cut("S1500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX20\nS1500\nX30\nM5\nS800\nM2\n").notices.empty())
+        << "the same speed, and one while the spindle stands";
+}
+
 TEST(CutPrograms, AProgramWithoutAnEndIsReadToItsLastLine) {
     const CutProgram program = read_cut("S1500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F60\nX5");
     ASSERT_EQ(program.strokes.size(), 1U);

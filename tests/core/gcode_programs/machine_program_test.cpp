@@ -10,12 +10,14 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::gcode {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Pair;
 
 MachineProgram read_on_machine(const std::string& text, const std::string& machine = "ac-table") {
     const kinematics::MachineModel model = test::machine(machine);
@@ -189,6 +191,27 @@ TEST(MachineProgram, PausesForToolsAndStops) {
                                          program::BlockKind::coolant_off,
                                          program::BlockKind::end}));
     EXPECT_EQ(program.program.blocks[0].spindle_rpm, -900.0);
+}
+
+TEST(MachineProgram, ASpeedWhileTheSpindleTurnsIsABlockWhereItIsKept) {
+    const auto speeds = [](const std::string& text, bool kept) {
+        const kinematics::MachineModel model = test::machine("router-xyz");
+        MachineProgramBuilder builder(model, "part.ngc", {.keeps_speed_changes = kept});
+        Interpreter interpreter(text, "part.ngc", {}, builder);
+        interpreter.run();
+        EXPECT_TRUE(interpreter.errors().empty());
+        std::vector<std::pair<int, double>> found; // line, rpm
+        for (const program::Block& block : builder.take().program.blocks) {
+            if (block.kind == program::BlockKind::spindle_on) {
+                found.emplace_back(block.source_line, block.spindle_rpm);
+            }
+        }
+        return found;
+    };
+    const std::string text = "G21 S1500 M3\nG0 X5\nS800\nX6\nS900 M4\nX7\nS900\nS700\nM5\nS600\nM2\n";
+    EXPECT_THAT(speeds(text, true),
+                ::testing::ElementsAre(Pair(1, 1500.0), Pair(3, 800.0), Pair(5, -900.0), Pair(8, -700.0)));
+    EXPECT_THAT(speeds(text, false), ::testing::ElementsAre(Pair(1, 1500.0), Pair(5, -900.0)));
 }
 
 TEST(MachineProgram, NamesAllAxesThatTheMachineLacksWithTheFirst) {

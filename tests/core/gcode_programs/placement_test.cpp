@@ -366,6 +366,34 @@ TEST(Placement, SaysThatAxesMoveBeforeOthersAreNamed) {
     EXPECT_EQ(said("G21 G90\nM2\n"), "");
 }
 
+TEST(Placement, ARapidOfTheRetractAxisFirstIsSafeOnlyAboveTheWorkAndItsCuts) {
+    const auto said = [](const std::string& text, const ReaderSettings& settings = {}) {
+        const std::optional<Diagnostic> notice = placed(text, settings).start_notice;
+        return notice ? to_text(*notice) : std::string();
+    };
+    const std::string plunge =
+        "part.ngc:2: the start positions of X and Y are unknown: Z moves here, but the "
+        "program sets X and Y for the first time in line ";
+    EXPECT_THAT(said("G21 G90\nG0 Z-5\nG0 X5 Y5\nG1 X8 F100\nM2\n"), HasSubstr(plunge + "3"));
+    EXPECT_THAT(said("G21 G90\nG0 Z0\nG0 X5 Y5\nM2\n"), HasSubstr(plunge + "3"));
+    EXPECT_THAT(said("G21 G90\nG0 Z-5\nG0 Z20\nG0 X5 Y5\nM2\n"), HasSubstr(plunge + "4"));
+    EXPECT_THAT(said("G21 G90\nG0 Z5\nG0 X5 Y5\nG0 Z20\nG1 X9 Z12 F100\nM2\n"), HasSubstr(plunge + "3"))
+        << "the part is higher than that";
+    EXPECT_THAT(said("G21 G90\nG0 Z5\nG0 X5 Y5\nG1 X8 F100\nM2\n"), HasSubstr(plunge + "3"))
+        << "it cuts at that height";
+    EXPECT_THAT(said("G21 G90\nG0 Z5\nG0 X5 Y5\nG0 Z20\nG1 Z12 F100\nM2\n"), HasSubstr(plunge + "3"))
+        << "a hole in a higher place";
+    EXPECT_EQ(said("G21 G90\nG0 Z5\nG0 X5 Y5\nG1 Z-1 F100\nG1 X8\nG1 Z5\nG0 X0\nM2\n"), "")
+        << "the feed up cuts nothing";
+    EXPECT_EQ(said("G20 G90\nG0 Z0.1\nG0 X5 Y5\nG1 Z-0.1 F10\nM2\n"), "");
+    EXPECT_EQ(said("G21 G90\nG53 G0 Z-5\nG0 X5 Y5\nG1 Z-1 F100\nM2\n", with_origin(Vec3(0, 0, -30))), "")
+        << "below machine zero, above that of the work";
+    EXPECT_THAT(said("G21 G90\nG53 G0 Z-35\nG0 X5 Y5\nG1 Z-1 F100\nM2\n", with_origin(Vec3(0, 0, -30))),
+                HasSubstr(plunge + "3"));
+    EXPECT_THAT(said("G21 G90\nG53 G0 Z-35\nG0 X5 Y5\nM2\n"), HasSubstr(plunge + "3"))
+        << "nobody knows where the work is";
+}
+
 TEST(Placement, NamesEveryAxisOfUnknownStartWithTheLineThatSetsIt) {
     const auto said = [](const std::string& text) {
         const std::optional<Diagnostic> notice = placed(text).start_notice;

@@ -107,7 +107,7 @@ TEST_F(PositionMemoryOf, WhatCannotBeWrittenIsToldOnce) {
 
 TEST_F(PositionMemoryOf, ADoubtIsRememberedAsWhatItWas) {
     for (const bool lost : {true, false}) {
-        driver.doubt_position("Grbl is at zero", lost);
+        driver.doubt_position("not confirmed since Grbl was at zero", lost);
         memory().keep(driver.status());
         trust();
         memory().remind(driver);

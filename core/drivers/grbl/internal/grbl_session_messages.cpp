@@ -134,7 +134,8 @@ void GrblSession::doubt_what_was_found(const StatusMessage& report) {
     } else if (std::ranges::all_of(readout_.machine_position,
                                    [](double axis) { return exactly_equal(axis, 0.0); })) {
         constexpr bool known_loss = false; // where its zero was set since, all is well
-        doubt_.arise(name() + " is at zero in all axes, as after switching on without homing", known_loss);
+        doubt_.arise("not confirmed since " + name() + " was at zero in all axes, as after switching on",
+                     known_loss);
     }
 }
 

@@ -135,8 +135,10 @@ TEST(GrblPositionDoubt, IsThereFromTheStartOfAControllerThatWasSwitchedOnOrIsLoc
     wire.grbl.power_cycle();
     wire.run_until([] { return false; }, 0.5);
     connect_again();
-    EXPECT_THAT(doubt(wire), HasSubstr("at zero in all axes"));
+    const std::string since_then = "not confirmed since Grbl was at zero in all axes, as after switching on";
+    EXPECT_EQ(doubt(wire), since_then);
     type_lines(wire, "G0 X3 Y4");
+    EXPECT_EQ(doubt(wire), since_then) << "which is still true elsewhere";
     type_lines(wire, "$22=1");
     wire.grbl.power_cycle();
     (void)wire.grbl.take_output(); // before anybody listened

@@ -334,7 +334,12 @@ TEST(BadPlots, AFileOfFiveGigabytesIsNotRead) {
     std::ofstream(file) << "IN;";
     std::filesystem::resize_file(file, 5'000'000'000U); // takes no room on the disk
     EXPECT_THAT(test::reason([&] { (void)read_hpgl_file(file); }),
-                HasSubstr("huge.plt: the file has 5.0 GB, but plots can be at most 1 GiB"));
+                HasSubstr("huge.plt: larger than 256 MiB, the maximum that can be read"));
+}
+
+TEST(BadPlots, ADeviceWithoutAnEndIsReadUpToTheBoundOfAPlot) {
+    EXPECT_THAT(test::reason([&] { (void)read_hpgl_file("/dev/zero"); }),
+                HasSubstr("/dev/zero: larger than 256 MiB"));
 }
 
 TEST(BadPlots, DiagnosticsAreKeptUpToALimitAndCounted) {
