@@ -171,7 +171,7 @@ private:
         found.y = at.position.y();
         found.z = at.position.z();
         const double none = std::numeric_limits<double>::quiet_NaN(); // refused if the formula needs it
-        const Vec3 normal = ground_.patch->unit_normal(at).value_or(Vec3(none, none, none));
+        const Vec3 normal = ground_.patch->unit_normal(found.u, found.v).value_or(Vec3(none, none, none));
         found.nx = normal.x();
         found.ny = normal.y();
         found.nz = normal.z();

@@ -2,6 +2,7 @@
 
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/failure.h"
+#include "core/project/part_trims.h"
 #include "core/project/surface.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,8 @@ private:
                     project::import_of(*found.source, found.choice, progress.part(0.0, 0.9)));
                 const project::SurfaceInput& surface = found.surface->surface;
                 found.patches = std::make_shared<const geometry::Surface>(project::surface_of(surface));
-                found.trims = std::make_shared<const std::vector<geometry::Trim>>(surface.trims);
+                found.trims =
+                    std::make_shared<const std::vector<geometry::Trim>>(project::part_trims(surface));
             }
         } catch (const Error&) {
             look();

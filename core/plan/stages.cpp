@@ -5,6 +5,7 @@
 #include "core/plan/internal/grid_stages.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/assets.h"
+#include "core/project/part_trims.h"
 #include "core/project/surface.h"
 
 #include <algorithm>
@@ -50,19 +51,17 @@ Stage surface_stage() {
             .qualities = {Quality::carried, Quality::exact}};
 }
 
-/// One a part of the surface; those that are missing leave all of it.
-std::vector<geometry::Trim> trims_of(const project::Project& project) {
-    return project.surface.face ? std::vector{project.surface.face->trim} : project.surface.trims;
-}
-
 Stage trims_stage() {
     return {.key = {StageKind::trims},
-            .same = [](const Source& then,
-                       const Source& now) { return trims_of(then.project) == trims_of(now.project); },
+            .same =
+                [](const Source& then, const Source& now) {
+                    return project::part_trims(then.project.surface) ==
+                           project::part_trims(now.project.surface);
+                },
             .make =
                 [](const StageWork& work) {
-                    work.plan.trims =
-                        std::make_shared<const std::vector<geometry::Trim>>(trims_of(work.project()));
+                    work.plan.trims = std::make_shared<const std::vector<geometry::Trim>>(
+                        project::part_trims(work.project().surface));
                     return true;
                 },
             .clear = [](Plan& plan) { plan.trims = nullptr; },

@@ -72,8 +72,8 @@ double depth_at(const geometry::ParametricSurface& patch,
                 const Profile& body,
                 const geometry::ToolPose& pose,
                 const Vec2& uv) {
-    const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
-    const Vec3 normal = patch.unit_normal(at).value_or(pose.axis);
+    const geometry::SurfacePoint at = patch.point(uv.x(), uv.y());
+    const Vec3 normal = at.normal.value_or(pose.axis);
     const Vec3 up = normal.dot(pose.axis) < 0.0 ? Vec3(-normal) : normal;
     return height_over(body, pose, at.position, up);
 }

@@ -52,11 +52,10 @@ Tile tile_at(const geometry::ParametricSurface& patch,
     for (int i = first_i; i < std::min(first_i + side, raster.nu); ++i) {
         for (int j = first_j; j < std::min(first_j + side, raster.nv); ++j) {
             const Vec2 uv(static_cast<double>(i) / (raster.nu - 1), static_cast<double>(j) / (raster.nv - 1));
-            const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
-            if (const auto normal = patch.unit_normal(at)) {
+            if (const auto [position, normal] = patch.point(uv.x(), uv.y()); normal) {
                 const auto index = static_cast<std::size_t>(i) * static_cast<std::size_t>(raster.nv) +
                                    static_cast<std::size_t>(j);
-                tile.points.push_back({uv, at.position, flipped ? Vec3(-*normal) : *normal, index});
+                tile.points.push_back({uv, position, flipped ? Vec3(-*normal) : *normal, index});
             }
         }
     }

@@ -65,12 +65,12 @@ std::vector<Contact> contacts(const geometry::ParametricSurface& patch, const Li
     std::vector<Contact> result;
     for (int i = 0; i < grid.nu; ++i) {
         for (int j = 0; j < grid.nv; ++j) {
-            const auto at = patch.derivatives(listing_parameter(i, grid.nu), listing_parameter(j, grid.nv));
-            const auto normal = patch.unit_normal(at);
+            const auto [position, normal] =
+                patch.point(listing_parameter(i, grid.nu), listing_parameter(j, grid.nv));
             if (!normal) {
                 throw Error(fmt::format("the surface has no normal at sample ({},{})", i, j));
             }
-            result.push_back({at.position, grid.flipped ? Vec3(-*normal) : *normal});
+            result.push_back({position, grid.flipped ? Vec3(-*normal) : *normal});
         }
     }
     return result;

@@ -4,6 +4,7 @@
 #include "core/base/files.h"
 #include "ui/actions/arm_workspace.h"
 #include "ui/actions/at_rest.h"
+#include "ui/actions/control_points.h"
 #include "ui/actions/job_source.h"
 #include "ui/actions/pending_import.h"
 #include "ui/actions/processor_workspace.h"
@@ -19,16 +20,6 @@ namespace {
 
 project::Project starting_project(const AppOptions& options) {
     return options.start ? *options.start : project::project_from_preset("dome");
-}
-
-/// Selected control points that the project still has.
-void drop_lost_selection(ViewState& view_state, const project::Project& project) {
-    const auto lost = [&](const viewport::ControlPointId& id) {
-        const auto patch = static_cast<std::size_t>(id.patch);
-        return patch >= project.surface.patches.size() || id.i >= project.surface.patches[patch].rows ||
-               id.j >= project.surface.patches[patch].columns;
-    };
-    std::erase_if(view_state.selected, lost);
 }
 
 Box3 box_of(const project::SurfaceInput& surface) {
@@ -139,7 +130,9 @@ FrameState AppController::look() const {
 }
 
 void AppController::follow_project() {
-    drop_lost_selection(view_state_, history_.current());
+    std::erase_if(view_state_.selected, [&](const viewport::ControlPointId& id) {
+        return !has_point(history_.current().surface, id);
+    });
     const auto& file = document().file;
     const auto folder = file.empty() ? std::filesystem::path{} : file.parent_path();
     const project::Project design = design_of(history_.current());

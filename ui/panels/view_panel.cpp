@@ -5,6 +5,7 @@
 #include "core/project/surface.h"
 #include "ui/actions/app_controller.h"
 #include "ui/actions/arm_workspace.h"
+#include "ui/actions/control_points.h"
 #include "ui/actions/pending_import.h"
 #include "ui/panels/compare_view.h"
 #include "ui/panels/layer_list.h"
@@ -12,9 +13,11 @@
 #include "ui/viewport/picture.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -22,13 +25,26 @@ namespace {
 
 using actions::Workspace;
 
-void move_dragged_points(const viewport::MoveControlPoints& move, ActionQueue& ask) {
+/// The view shows the surface of the last plan: after an undo or an import the project may have other points.
+void move_dragged_points(const viewport::MoveControlPoints& move, const FrameState& now, ActionQueue& ask) {
+    const auto is_there = [](const project::SurfaceInput& surface) {
+        return [&surface](const viewport::MovedControlPoint& moved) {
+            return actions::has_point(surface, moved.id);
+        };
+    };
+    if (!std::ranges::all_of(move.points, is_there(now.project.surface))) {
+        ask.end_step();
+        return;
+    }
     const std::string title = move.points.size() == 1
                                   ? "Move a control point"
                                   : "Move " + std::to_string(move.points.size()) + " points";
     ask.edit(
         title,
-        [points = move.points](project::Project& draft) {
+        [points = move.points, is_there](project::Project& draft) {
+            if (!std::ranges::all_of(points, is_there(draft.surface))) {
+                return; // changed since, in the same frame
+            }
             for (const viewport::MovedControlPoint& moved : points) {
                 draft.surface.patches[static_cast<std::size_t>(moved.id.patch)].point(
                     moved.id.i, moved.id.j) = moved.position;
@@ -39,6 +55,14 @@ void move_dragged_points(const viewport::MoveControlPoints& move, ActionQueue& a
     if (move.stage != viewport::MoveControlPoints::Stage::going_on) {
         ask.end_step();
     }
+}
+
+void select_points(const viewport::SelectControlPoints& select, const FrameState& now, ActionQueue& ask) {
+    std::vector<viewport::ControlPointId> points = select.points;
+    std::erase_if(points, [&](const viewport::ControlPointId& id) {
+        return !actions::has_point(now.project.surface, id);
+    });
+    ask.show([points](actions::ViewState& view_state) { view_state.selected = points; });
 }
 
 void go_to_path_place(const gcode::PathPlace& place, const FrameState& now, ActionQueue& ask) {
@@ -149,7 +173,11 @@ void show_planned(const FrameState& now, viewport::Scene& scene) {
         scene.set_up_place = now.set_up_place();
     }
     scene.start = now.evaluation(project::GridMethod::uniform);
-    scene.surface_tool = surface_tool_of(now);
+    viewport::SurfaceTool tool = surface_tool_of(now);
+    if (plan.surface && static_cast<std::size_t>(tool.patch) <
+                            plan.surface->parts().size()) { // else it is of an earlier project
+        scene.surface_tool = std::move(tool);
+    }
     if (now.watched && now.view_state.workspace == Workspace::grid) {
         scene.watched = now.watched->state;
     }
@@ -208,9 +236,9 @@ viewport::Scene scene_of(const FrameState& now) {
 
 void obey(const viewport::ViewEvent& event, const FrameState& now, ActionQueue& ask) {
     if (const auto* move = std::get_if<viewport::MoveControlPoints>(&event)) {
-        move_dragged_points(*move, ask);
+        move_dragged_points(*move, now, ask);
     } else if (const auto* select = std::get_if<viewport::SelectControlPoints>(&event)) {
-        ask.show([points = select->points](actions::ViewState& view_state) { view_state.selected = points; });
+        select_points(*select, now, ask);
     } else if (const auto* go = std::get_if<viewport::GoToMove>(&event)) {
         go_to_move(*go, now, ask);
     } else if (const auto* tip = std::get_if<viewport::MoveArmTip>(&event)) {

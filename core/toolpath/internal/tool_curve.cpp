@@ -56,7 +56,10 @@ ToolPlace tool_place(const geometry::ParametricSurface& patch,
     const geometry::SurfaceDerivatives at = patch.derivatives(uv.x(), uv.y());
     ToolPlace place;
     place.contact = at.position;
-    const auto normal = patch.unit_normal(at);
+    auto normal = patch.unit_normal(at);
+    if (!normal) { // a side that is one point: the surface may know the limit
+        normal = patch.unit_normal(uv.x(), uv.y());
+    }
     if (!normal) {
         return place;
     }

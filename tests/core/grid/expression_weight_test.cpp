@@ -4,6 +4,7 @@
 #include "core/base/units.h"
 #include "core/geometry/curvature.h"
 #include "core/geometry/presets.h"
+#include "tests/support/lens_face.h"
 #include "tests/support/test_weights.h"
 #include "tests/support/without_traps.h"
 
@@ -54,7 +55,7 @@ TEST(ExpressionWeight, KnowsTheSurfaceWhereThereIsOne) {
     const auto patch = shared_dome_patch();
     const Vec2 p(5.0, 2.0);
     const geometry::SurfaceDerivatives at = patch->derivatives(0.25, 0.2);
-    const Vec3 normal = patch->unit_normal(at).value();
+    const Vec3 normal = patch->unit_normal(0.25, 0.2).value();
     const auto bent = geometry::principal_curvatures(at).value();
     const auto value_of = [&](const std::string& text) {
         double w = 0.0;
@@ -68,6 +69,16 @@ TEST(ExpressionWeight, KnowsTheSurfaceWhereThereIsOne) {
     EXPECT_DOUBLE_EQ(value_of("k1 - k2"), bent.k1 - bent.k2);
     const Diagnostic fault = fault_of("1 + z");
     EXPECT_NE(fault.message.find("surface"), std::string::npos);
+}
+
+// It was no number, and the formula was refused.
+TEST(ExpressionWeight, KnowsTheNormalWhereASideOfTheSurfaceIsAPoint) {
+    const auto lens = std::make_shared<const geometry::BsplineSurface>(test::lens_net());
+    double w = 0.0;
+    const Vec2 tip(0.0, 2.0); // u = 0, v = 0.2
+    expression_weight("nx + 10*ny + 100*nz", expression_nu, expression_nv, {lens, nullptr})
+        ->values({&tip, 1}, {&w, 1});
+    EXPECT_NEAR(w, lens->unit_normal(1e-7, 0.2)->dot(Vec3(1.0, 10.0, 100.0)), 1e-4);
 }
 
 TEST(ExpressionWeight, KnowsTheErrorWhereItWasMeasured) {

@@ -6,6 +6,7 @@
 #include "core/project/project_file.h"
 #include "core/project/surface.h"
 #include "tests/core/plan/sample_projects.h"
+#include "tests/support/lens_face.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -114,6 +115,26 @@ TEST(ExactFace, IsTurnedAndPlacedWithItsControlPoints) {
     const Vec3 after = project::machined_region(placed.surface).position(0.3, 0.7);
     EXPECT_LT((after - Eigen::AngleAxisd(0.5, Vec3::UnitZ()) * before).norm(), 1e-9);
     EXPECT_EQ(placed.machine.workpiece_offset, Vec3(10.0, -5.0, 3.0));
+}
+
+/// What is asked of it at its ends has no answer from the tangents.
+TEST(ExactFace, IsPlannedThoughTwoOfItsSidesArePoints) {
+    project::Project project = small_sample("dome", 7);
+    project.surface = {};
+    project.surface.face = project::FaceInput{test::lens_net(), {}};
+    project.machine.file = "ac-table";
+    project.grid.direction = grid::TrackDirection::along_u;
+    for (const GridMethod method : {GridMethod::uniform, GridMethod::elliptic}) {
+        project.grid.method = method;
+        project.grid.elliptic.weight = project::WeightSource::expression;
+        project.grid.elliptic.expression = "2 + nz";
+        const Plan plan = make_plan(project, sample_folders, Progress());
+        const Evaluation& path = *plan.program_path(project);
+        EXPECT_GT(path.closest.max, 0.0);
+        EXPECT_LT(path.closest.max, 1.0);
+        EXPECT_EQ(std::ssize(path.toolpath.points), 49);
+        EXPECT_FALSE(plan.listing->text.empty());
+    }
 }
 
 TEST(ExactFace, IsCutInsideItsOutlineOnly) {

@@ -101,6 +101,31 @@ TEST(ImportedFace, ItsOutlineIsWhatIsCutOfIt) {
     EXPECT_FALSE(trim.contains({0.35, 0.25}));
 }
 
+// The preview showed all of it, and its outline only after it was taken.
+TEST_F(Importing, AnExactFaceIsShownWithItsOutline) {
+    const std::filesystem::path cover = "assets/samples/cover.step";
+    project::ImportSource source;
+    try {
+        source = project::read_source(cover, {});
+    } catch (const Error& error) {
+        GTEST_SKIP() << error.what(); // built without Open CASCADE
+    }
+    int trimmed = 0;
+    for (const exchange::CadFace& face : source.model->faces) {
+        project::ImportChoice choice;
+        choice.face = face.number;
+        choice.exact = true;
+        worker_.open(cover, choice);
+        worker_.wait_idle();
+        const auto found = worker_.latest();
+        ASSERT_TRUE(found && found->surface && found->surface->surface.face && found->trims);
+        const geometry::Trim& trim = found->surface->surface.face->trim;
+        EXPECT_EQ(*found->trims, std::vector{trim}) << face.number;
+        trimmed += trim.everything() ? 0 : 1;
+    }
+    EXPECT_GT(trimmed, 0);
+}
+
 /// Its edges were stairs.
 TEST(ReferenceMesh, OfATrimmedFaceEndsAtItsOutline) {
     exchange::CadFace face;

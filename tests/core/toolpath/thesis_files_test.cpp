@@ -3,6 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/patch_refinement.h"
+#include "tests/support/lens_face.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -59,6 +60,26 @@ TEST(ListingMidPoints, CorrectedForwardEquationsGiveTheReferencePoints) {
     EXPECT_LT((points[0] - Vec3(10.195113, 11.536875, 3.985629)).cwiseAbs().maxCoeff(), 2e-6);
     EXPECT_LT((points[1] - Vec3(10.059569, 14.681875, 1.911524)).cwiseAbs().maxCoeff(), 2e-6);
     EXPECT_LT((points[19] - Vec3(11.526928, 85.494289, 1.921100)).cwiseAbs().maxCoeff(), 2e-6);
+}
+
+// There was "no normal at sample (0,0)". The same surface without its ends is the judge.
+TEST(ListingMidPoints, AreMadeOfASurfaceWithASideThatIsAPoint) {
+    const geometry::BsplineSurface lens(test::lens_net());
+    const ListingGrid grid{.nu = 5, .nv = 4};
+    const auto points = listing_mid_points(lens, kinematics::listing_values, grid, ListingFaults::corrected);
+    ASSERT_EQ(points.size(), 19U);
+    geometry::BsplineNet nearly = lens.net();
+    for (int j = 0; j < nearly.columns; ++j) {
+        for (const int i : {0, nearly.rows - 1}) {
+            nearly.points[nearly.index(i, j)] +=
+                1e-7 * (nearly.points[nearly.index(1, j)] - Vec3(10.0, 0.0, 2.0));
+        }
+    }
+    const auto beside = listing_mid_points(
+        geometry::BsplineSurface(nearly), kinematics::listing_values, grid, ListingFaults::corrected);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        EXPECT_LT((points[n] - beside[n]).norm(), 1e-3) << n;
+    }
 }
 
 TEST(ListingMidPoints, AllFaultsGiveTheOriginalsPoint) {

@@ -2,9 +2,11 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/toolpath/internal/tool_curve.h"
 #include "core/toolpath/zigzag.h"
 #include "tests/core/toolpath/leans.h"
 #include "tests/support/cutters.h"
+#include "tests/support/lens_face.h"
 #include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
@@ -69,6 +71,23 @@ TEST(ToolPoses, EveryCutterTouchesItsContactAndNothingNearItIsCut) {
                 const Vec3 inside = point.contact - 0.05 * point.normal;
                 EXPECT_GT(distance(*tool.cutter, point.pose, inside), 0.04);
             }
+        }
+    }
+}
+
+// It had none, and the error of the moves there was not looked at.
+TEST(ToolPlace, HasAPoseWhereASideOfTheSurfaceIsAPoint) {
+    const geometry::BsplineSurface lens(test::lens_net());
+    const auto machine = test::machine("ac-table");
+    for (const CutterShape& shape : test::every_cutter) {
+        for (const double u : {0.0, 1.0}) {
+            const double near = u > 0.5 ? 1.0 - 1e-7 : 1e-7;
+            const Tool tool{.cutter = test::body(shape)};
+            const ToolPlace at_tip = tool_place(lens, machine, false, tool, {u, 0.3}, Vec2::UnitX());
+            const ToolPlace beside = tool_place(lens, machine, false, tool, {near, 0.3}, Vec2::UnitX());
+            ASSERT_TRUE(at_tip.pose && beside.pose);
+            EXPECT_LT((at_tip.normal - beside.normal).norm(), 1e-5);
+            EXPECT_LT((at_tip.pose->tip - beside.pose->tip).norm(), 1e-4);
         }
     }
 }
