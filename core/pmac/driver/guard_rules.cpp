@@ -121,18 +121,45 @@ std::optional<Assignment> assignment_at(std::string_view rest) {
     return found;
 }
 
-/// All of them in a line. What is in parentheses compares.
-std::vector<Assignment> assignments_of(std::string_view text) {
-    std::vector<Assignment> all;
+/// Where the parenthesis at `at` is closed; npos: nowhere. Those within quoted text do not count.
+std::size_t closing_parenthesis(std::string_view text, std::size_t at) {
     int depth = 0;
+    bool quoted = false;
+    for (std::size_t n = at; n < text.size(); ++n) {
+        quoted = quoted != (text[n] == '"');
+        depth += quoted ? 0 : text[n] == '(' ? 1 : text[n] == ')' ? -1 : 0;
+        if (depth == 0) {
+            return n;
+        }
+    }
+    return std::string_view::npos;
+}
+
+/// Adds those in `text`. What is in parentheses that are closed compares; quoted text is a line of its own.
+void add_assignments(std::string_view text, std::vector<Assignment>& all) {
+    std::size_t compares_to = 0; // the place behind a pair of parentheses
     for (std::size_t n = 0; n < text.size(); ++n) {
-        depth = std::max(0, depth + (text[n] == '(' ? 1 : text[n] == ')' ? -1 : 0));
-        if (depth == 0 && std::string_view("IPQM").find(text[n]) != std::string_view::npos) {
+        if (text[n] == '"') {
+            const std::size_t end = std::min(text.find('"', n + 1), text.size());
+            add_assignments(text.substr(n + 1, end - n - 1), all);
+            n = end;
+        } else if (n < compares_to) {
+            continue;
+        } else if (text[n] == '(') {
+            const std::size_t end = closing_parenthesis(text, n);
+            compares_to = end == std::string_view::npos ? n : end;
+        } else if (std::string_view("IPQM").find(text[n]) != std::string_view::npos) {
             if (const auto found = assignment_at(text.substr(n))) {
                 all.push_back(*found);
             }
         }
     }
+}
+
+/// All of them in a line.
+std::vector<Assignment> assignments_of(std::string_view text) {
+    std::vector<Assignment> all;
+    add_assignments(text, all);
     return all;
 }
 
