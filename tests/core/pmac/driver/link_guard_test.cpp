@@ -82,7 +82,17 @@ const std::vector<std::string> weakening{"I5=0",
                                          "IF(P9=1 P1002=M1000",
                                          "P7=(P8 I5=0",
                                          "IF(P9=1)CMD\"IF(P8=1)I5=0\"",
-                                         "P7=SIN(CMD\"I5=0\")"};
+                                         "P7=SIN(CMD\"I5=0\")",
+                                         "I102=$13E8",
+                                         "I802=5096",
+                                         "I3202=$13E8",
+                                         "I102=P1",
+                                         "I100..199=1",
+                                         "I202=$113E8",
+                                         "I102=$73F",
+                                         "I125=$1313E8",
+                                         "I425=M1",
+                                         "I125=$0"};
 
 TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
     for (const std::string& line : weakening) {
@@ -97,6 +107,15 @@ TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
                                    "I50=0",
                                    "I105=0",
                                    "I130=5",
+                                   "I102=$C003",
+                                   "I102=49155",
+                                   "I202=$1C002",
+                                   "I502=$7F0",
+                                   "I102=*",
+                                   "I100..199=*",
+                                   "I902=10",
+                                   "I302",
+                                   "I125=$13C000",
                                    "P1001",
                                    "M1000->",
                                    "P1=P1001",
@@ -269,6 +288,7 @@ TEST(PmacLinkGuardF2, AProgramOfTheCardThatSwitchesItOffEndsInAlarm) {
 TEST(PmacLinkGuardF2, WithoutItMotorsGetNoPowerAndItIsListed) {
     PmacWire wire({}, false, "XYZA", {}, "OPEN PLC 5\nCLEAR\nI5=0\nCLOSE\n");
     EXPECT_THAT(wire.session.protections_off().value(), Not(Contains(HasSubstr("PLC 31"))));
+    wire.session.let_lines_give_power();
     (void)wire.session.command({"ENABLE PLC 5"}, false);
     wire.pass(1.0);
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);
