@@ -96,7 +96,7 @@ public:
         if (lines.empty()) {
             throw Error("it contains no command", path);
         }
-        const drivers::CommandAnswer answer = answer_to(driver_->load(lines));
+        const drivers::CommandAnswer answer = answer_to(loaded(lines));
         print(answer, pmac::with_line_numbers(answer.text, file, path + ":"));
         wait_for_rest();
         warn_of_protections(*driver_, clock_);
@@ -133,6 +133,14 @@ private:
             return driver_->command(command);
         } catch (const pmac::PowerRefused& error) {
             throw Error(error.diagnostic().message, {}, error.diagnostic().hint + ": --power");
+        }
+    }
+
+    int loaded(const std::vector<std::string>& lines) {
+        try {
+            return driver_->load(lines);
+        } catch (const pmac::PowerRefused& error) {
+            throw Error(error.diagnostic().message, {}, "inspect the machine, then allow it with --power");
         }
     }
 

@@ -19,6 +19,7 @@ struct Assignment {
     char letter = 'I';
     int first = 0, last = 0;
     bool computed = false;         ///< the number of the variable is an expression
+    bool default_value = false;    ///< `*`
     std::optional<double> value;   ///< nothing: an expression, a default, or a definition
     std::string_view definition{}; ///< behind "->", with what follows it; else empty
 
@@ -118,44 +119,50 @@ std::optional<Assignment> assignment_at(std::string_view rest) {
         return std::nullopt;
     }
     found.value = literal(rest.substr(1));
+    found.default_value = rest.substr(1).starts_with('*');
     return found;
 }
 
-/// All of them in a line. What is in parentheses compares.
-std::vector<Assignment> assignments_of(std::string_view text) {
-    std::vector<Assignment> all;
+/// Where the parenthesis at `at` is closed; npos: nowhere. Those within quoted text do not count.
+std::size_t closing_parenthesis(std::string_view text, std::size_t at) {
     int depth = 0;
+    bool quoted = false;
+    for (std::size_t n = at; n < text.size(); ++n) {
+        quoted = quoted != (text[n] == '"');
+        depth += quoted ? 0 : text[n] == '(' ? 1 : text[n] == ')' ? -1 : 0;
+        if (depth == 0) {
+            return n;
+        }
+    }
+    return std::string_view::npos;
+}
+
+/// Adds those in `text`. What is in parentheses that are closed compares; quoted text is a line of its own.
+void add_assignments(std::string_view text, std::vector<Assignment>& all) {
+    std::size_t compares_to = 0; // the place behind a pair of parentheses
     for (std::size_t n = 0; n < text.size(); ++n) {
-        depth = std::max(0, depth + (text[n] == '(' ? 1 : text[n] == ')' ? -1 : 0));
-        if (depth == 0 && std::string_view("IPQM").find(text[n]) != std::string_view::npos) {
+        if (text[n] == '"') {
+            const std::size_t end = std::min(text.find('"', n + 1), text.size());
+            add_assignments(text.substr(n + 1, end - n - 1), all);
+            n = end;
+        } else if (n < compares_to) {
+            continue;
+        } else if (text[n] == '(') {
+            const std::size_t end = closing_parenthesis(text, n);
+            compares_to = end == std::string_view::npos ? n : end;
+        } else if (std::string_view("IPQM").find(text[n]) != std::string_view::npos) {
             if (const auto found = assignment_at(text.substr(n))) {
                 all.push_back(*found);
             }
         }
     }
-    return all;
 }
 
-std::string refused_setting(const Assignment& one) {
-    constexpr int plcs = 5, interrupts = 8, servo_time = 10;
-    if (one.computed) {
-        return "the number of the I-variable is computed, so it could be one that the guard needs";
-    }
-    if (one.covers(plcs, plcs)) {
-        constexpr int background = 2, values = 4;
-        const bool whole = one.value && *one.value >= 0.0 && *one.value < 1e6;
-        if (!whole || (static_cast<int>(*one.value) % values & background) == 0) {
-            return "the guard is PLC 31, which runs only with I5 = 2 or 3";
-        }
-    }
-    if (one.covers(interrupts, interrupts)) {
-        constexpr double most = 15.0; // 7 ms between two looks, with the factory's servo time
-        if (!one.value || !(*one.value >= 0.0 && *one.value <= most)) {
-            return "the guard must run every few milliseconds: use I8 = 0 to 15";
-        }
-    }
-    return one.covers(servo_time, servo_time) ? "the guard counts servo cycles, whose length is set by I10"
-                                              : "";
+/// All of them in a line.
+std::vector<Assignment> assignments_of(std::string_view text) {
+    std::vector<Assignment> all;
+    add_assignments(text, all);
+    return all;
 }
 
 /// Of DISABLE PLC {list}, behind those words.
@@ -203,8 +210,9 @@ constexpr std::array<MemoryPart, 3> set_up_memory{
     MemoryPart{'*', 0xD000, 0xDFFF}}; // that memory
 
 /// Where M-variables may point besides.
-constexpr std::array<MemoryPart, 2> registers{
+constexpr std::array<MemoryPart, 3> registers{
     MemoryPart{'X', 0x0, 0x3},        // the servo counter and the card's status
+    MemoryPart{'*', 0x7F0, 0x7FF},    // registers that nothing uses
     MemoryPart{'*', 0xC000, 0xCFFF}}; // encoders, outputs and flags of the channels
 
 constexpr std::array<std::string_view, 7> memory_words{"X", "Y", "L", "DP", "D", "F", "TWS"};
@@ -249,6 +257,68 @@ bool points_into_memory(std::string_view definition) {
             !is_within(registers, word, *address, *address));
 }
 
+/// Whether the card may write through an I-variable of this value, each servo cycle: the word at its lower 16
+/// bits, and `more` behind it.
+bool is_output_address(double value, std::string_view word, int more) {
+    constexpr double beyond_words = 1 << 24; // of the card
+    constexpr std::int64_t address_bits = 0xFFFF, last_status = 3;
+    if (!(std::abs(value) < beyond_words)) {
+        return false;
+    }
+    const std::int64_t address = static_cast<std::int64_t>(value) & address_bits;
+    const auto first = static_cast<int>(address);
+    return address > last_status && (is_within(set_up_memory, word, first, first + more) ||
+                                     is_within(registers, word, first, first + more));
+}
+
+/// Of Ix02, the outputs of the motors, and Ix25, whose register also has the amplifier's enable bit: whether
+/// `one` lets the card write elsewhere.
+bool writes_outputs_elsewhere(const Assignment& one) {
+    constexpr int hundred = 100, last_motor = 32, encoders = 9; // I900 to I979 are no motor's
+    constexpr int output = 2, flags = 25;
+    for (int motor = 1; motor <= last_motor; ++motor) {
+        const bool is_output = one.covers(hundred * motor + output, hundred * motor + output);
+        const bool is_flags = one.covers(hundred * motor + flags, hundred * motor + flags);
+        if (motor == encoders || one.default_value || !(is_output || is_flags)) {
+            continue;
+        }
+        // With a commutated motor (Ix01 = 1) the output is two words.
+        if (!one.value || (is_output && !is_output_address(*one.value, "Y", 1)) ||
+            (is_flags && !is_output_address(*one.value, "X", 0))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::string refused_setting(const Assignment& one) {
+    constexpr int plcs = 5, interrupts = 8, servo_time = 10;
+    if (one.computed) {
+        return "the number of the I-variable is computed, so it could be one that the guard needs";
+    }
+    if (one.covers(plcs, plcs)) {
+        constexpr int background = 2, values = 4;
+        const bool whole = one.value && *one.value >= 0.0 && *one.value < 1e6;
+        if (!whole || (static_cast<int>(*one.value) % values & background) == 0) {
+            return "the guard is PLC 31, which runs only with I5 = 2 or 3";
+        }
+    }
+    if (one.covers(interrupts, interrupts)) {
+        constexpr double most = 15.0; // 7 ms between two looks, with the factory's servo time
+        if (!one.value || !(*one.value >= 0.0 && *one.value <= most)) {
+            return "the guard must run every few milliseconds: use I8 = 0 to 15";
+        }
+    }
+    if (writes_outputs_elsewhere(one)) {
+        return "the card writes each servo cycle to the address in Ix02 and Ix25, where the guard's program "
+               "or "
+               "its variables could be: use a number within $C000 to $CFFF, the dual-ported memory ($D000 to "
+               "$DFFF), the encoder table ($720 to $73F) or $7F0 to $7FF";
+    }
+    return one.covers(servo_time, servo_time) ? "the guard counts servo cycles, whose length is set by I10"
+                                              : "";
+}
+
 /// WX:$786,$D,$43; no WHILE, no WAIT, no move of the axis W.
 bool writes_memory(std::string_view text) {
     for (std::size_t at = text.find('W'); at != std::string_view::npos; at = text.find('W', at + 1)) {
@@ -290,7 +360,8 @@ std::string guard_refusal(std::string_view line) {
             return "M1000 to M1008 are reserved for the guard";
         } else if (one.letter == 'M' && !one.definition.empty() && points_into_memory(one.definition)) {
             return "the guard's program or its variables could be at that address: an M-variable may point "
-                   "only to X:$0 to $3, $C000 to $CFFF, the dual-ported memory ($D000 to $DFFF), the encoder "
+                   "only to X:$0 to $3, $7F0 to $7FF, $C000 to $CFFF, the dual-ported memory ($D000 to "
+                   "$DFFF), the encoder "
                    "table (Y:$720 to $73F) and X:$783 to $787";
         }
     }

@@ -113,7 +113,8 @@ bool PmacDriver::needs_rest(const std::string& lines) {
     const std::vector<std::string> all = nonempty_lines(lines);
     return !std::all_of(all.begin(), all.end(), internal::only_asks) &&
            !std::all_of(all.begin(), all.end(), [](const std::string& line) {
-               return internal::only_stops(line) || internal::only_kills(line);
+               return internal::only_stops(line) || internal::only_kills(line) ||
+                      internal::only_disables_plcs(line) || line.starts_with('^');
            });
 }
 

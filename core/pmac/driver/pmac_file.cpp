@@ -128,10 +128,13 @@ private:
             const bool blank = c == ' ' || c == '\t';
             tight += blank ? "" : std::string(1, c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c);
         }
+        const auto setting = setting_of(tight);
+        if (setting) {
+            check_bits(*setting, line, text);
+        }
         if (!program_ && is_left_out(text, tight, line)) {
             return;
         }
-        const auto setting = setting_of(tight);
         if (!program_ && !open_.empty() && tight.starts_with("OPEN")) {
             throw Error(Diagnostic{
                 {file_, line, 1}, internal::second_open_message(text), internal::second_open_hint(open_)});
@@ -199,13 +202,15 @@ private:
     void omit(int line, std::string message, std::string hint) {
         result_.omissions.push_back({{file_, line, 1}, std::move(message), std::move(hint)});
     }
-    void note(const Setting& setting, int line, const std::string& text) {
+    void check_bits(const Setting& setting, int line, const std::string& text) const {
         constexpr double beyond_words = 1 << 24; // of the card
         if (!(std::abs(setting.value) < beyond_words)) {
             throw Error(Diagnostic{{file_, line, 1},
                                    fmt::format("'{}': settings of the card have at most 24 bits", text),
                                    "check for an extra digit"});
         }
+    }
+    void note(const Setting& setting, int line, const std::string& text) {
         const double range = range_of(setting.variable);
         if (range > 0.0 && !(setting.value >= 0.0 && setting.value < range)) {
             warn(line,

@@ -14,7 +14,12 @@ std::string with_line_numbers(const std::string& said, const PmacFile& file, std
         const std::size_t end = std::min(said.find('\n', begin), said.size());
         const std::string sentence = said.substr(begin, end - begin);
         const auto refused = std::find_if(next, file.lines.end(), [&](const PmacFile::Line& line) {
-            return sentence.starts_with("'" + line.text + "' is rejected");
+            const std::string quoted = "'" + line.text + "' ";
+            const std::string_view more =
+                std::string_view(sentence).substr(std::min(quoted.size(), sentence.size()));
+            return sentence.starts_with(quoted) &&
+                   (more.starts_with("is rejected") || more.starts_with("is not executed") ||
+                    more.starts_with("and the "));
         });
         if (refused != file.lines.end()) {
             placed += fmt::format("{}{}: ", before, refused->number);

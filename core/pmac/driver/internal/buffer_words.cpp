@@ -1,11 +1,11 @@
 #include "core/pmac/driver/internal/buffer_words.h"
 
+#include "core/pmac/driver/card_words.h"
 #include "core/pmac/driver/pmac_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <utility>
 
@@ -13,33 +13,8 @@ namespace millwright::pmac::internal {
 
 namespace {
 
-struct Word {
-    std::string_view written, name;
-};
-
-constexpr std::array<Word, 5> buffer_words{
-    {{"OPEN", "OPEN"}, {"CLOSE", "CLOSE"}, {"CLS", "CLOSE"}, {"CLEAR", "CLEAR"}, {"CLR", "CLEAR"}}};
-
-char upper(char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-}
-
 bool is_blank(char c) {
     return c == ' ' || c == '\t';
-}
-
-/// Where `word` ends that begins at `at`; npos if it does not.
-std::size_t end_of(std::string_view word, std::string_view line, std::size_t at) {
-    for (const char expected : word) {
-        while (at < line.size() && is_blank(line[at])) {
-            ++at;
-        }
-        if (at == line.size() || upper(line[at]) != expected) {
-            return std::string_view::npos;
-        }
-        ++at;
-    }
-    return at;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -70,23 +45,14 @@ void add(std::vector<std::string>& parts, std::string_view name, std::string_vie
 
 std::vector<std::string> split_at_buffer_words(std::string_view line) {
     std::vector<std::string> parts;
-    std::string_view name;
+    std::string name;
     std::size_t from = 0;
-    bool quoted = false;
-    for (std::size_t at = 0; at < line.size();) {
-        quoted = quoted != (line[at] == '"');
-        const auto* const word = quoted || is_blank(line[at])
-                                     ? buffer_words.end()
-                                     : std::ranges::find_if(buffer_words, [&](const Word& one) {
-                                           return end_of(one.written, line, at) != std::string_view::npos;
-                                       });
-        if (word == buffer_words.end()) {
-            ++at;
-            continue;
+    for (const PlacedWord& word : placed_words(line)) {
+        if (word.text == "OPEN" || word.text == "CLOSE" || word.text == "CLEAR") {
+            add(parts, name, line.substr(from, word.begin - from));
+            name = word.text;
+            from = word.end;
         }
-        add(parts, name, line.substr(from, at - from));
-        name = word->name;
-        at = from = end_of(word->written, line, at);
     }
     if (name.empty()) {
         return {std::string(line)};

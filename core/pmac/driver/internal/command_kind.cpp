@@ -1,5 +1,8 @@
 #include "core/pmac/driver/internal/command_kind.h"
 
+#include "core/pmac/driver/card_words.h"
+
+#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <regex>
@@ -35,6 +38,38 @@ bool only_aborts(std::string_view line) {
 bool only_kills(std::string_view line) {
     static const std::regex kills(" *(([#&][0-9]+ *)?K *)+", std::regex::icase);
     return is(line, kills);
+}
+
+bool only_disables_plcs(std::string_view line) {
+    static const std::regex disables("(D *I *S *(A *B *L *E *)?P *L *C *[0-9]+ *([.] *[.] *[0-9]+ *)?(, "
+                                     "*[0-9]+ *([.] *[.] *[0-9]+ *)?)*)+",
+                                     std::regex::icase);
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
+    return is(line, disables);
+}
+
+bool enables_plc(std::string_view line) {
+    const std::vector<PlacedWord> words = placed_words(line);
+    for (std::size_t n = 0; n + 1 < words.size(); ++n) {
+        const bool enables = words[n].text == "ENABLE" && words[n + 1].text == "PLC";
+        const std::string more = n + 3 < words.size() ? words[n + 3].text : "";
+        if (enables && (n + 2 >= words.size() || words[n + 2].text != "31" || more == "," || more == ".")) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool runs_program(std::string_view line) {
+    const std::vector<PlacedWord> words = placed_words(line);
+    for (std::size_t n = 0; n < words.size(); ++n) {
+        // Behind a comma or a parenthesis they are an axis, or how an M-variable is read.
+        const bool argument = n > 0 && (words[n - 1].text == "," || words[n - 1].text == "(");
+        if ((words[n].text == "R" || words[n].text == "S") && !argument) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool jogs(std::string_view line) {
@@ -126,9 +161,8 @@ bool begins_nothing(std::string_view line) {
 }
 
 bool may_move_later(std::string_view line, int system) {
-    static const std::regex plc("ENA(BLE)? *PLC", std::regex::icase);
     static const std::regex address("& *([0-9]+)");
-    if (std::regex_search(line.begin(), line.end(), plc)) {
+    if (enables_plc(line)) {
         return true;
     }
     for (std::cregex_iterator at(line.data(), line.data() + line.size(), address), end; at != end; ++at) {

@@ -20,6 +20,15 @@ namespace millwright::pmac::internal {
 /// Whether `line` takes power away and does nothing else: `#1K`, `K`.
 [[nodiscard]] bool only_kills(std::string_view line);
 
+/// Whether `line` disables PLC programs and does nothing else: `DISABLE PLC 1,5..7`.
+[[nodiscard]] bool only_disables_plcs(std::string_view line);
+
+/// Whether `line` enables a PLC program other than the guard's.
+[[nodiscard]] bool enables_plc(std::string_view line);
+
+/// Whether `line` runs a motion program, or a step of one: `B1R`, `S`.
+[[nodiscard]] bool runs_program(std::string_view line);
+
 /// Whether `line` has a jog to a place, by a way or until a trigger (`J=`, `J:500`, `J^`).
 [[nodiscard]] bool jogs(std::string_view line);
 

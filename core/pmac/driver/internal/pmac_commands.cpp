@@ -4,6 +4,7 @@
 #include "core/pmac/driver/internal/buffer_words.h"
 #include "core/pmac/driver/internal/command_kind.h"
 #include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/internal/watchdog.h"
 #include "core/pmac/driver/pmac_driver.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,26 @@
 #include <iterator>
 
 namespace millwright::pmac::internal {
+
+namespace {
+
+template <class Rule> bool are_all(const std::vector<std::string>& lines, const Rule& rule) {
+    return std::all_of(lines.begin(), lines.end(), [&](const std::string& line) { return rule(line); });
+}
+
+bool asks_or_disables_plcs(const std::string& line) {
+    return only_asks(line) || only_disables_plcs(line);
+}
+
+bool only_ends_motion(const std::string& line) {
+    return only_stops(line) || only_kills(line) || only_disables_plcs(line);
+}
+
+bool is_taken_in_alarm(const std::string& line) {
+    return only_sets(line) || only_kills(line) || asks_or_disables_plcs(line);
+}
+
+} // namespace
 
 void PmacSession::check_command(const std::vector<std::string>& lines) const {
     if (lines.empty()) {
@@ -29,10 +50,11 @@ void PmacSession::check_command(const std::vector<std::string>& lines) const {
                         "use a number alone to set P0, or a command that starts with a letter, # or &");
         }
         if (line.front() == '^') {
-            throw Error(fmt::format("'{}' is a control character, which is not allowed in a line", line),
-                        {},
-                        "use stop, emergency stop and unlock instead of ^A, ^K and others; the driver "
-                        "requests the reports (^B, ^C, ^F, ^G, ^P, ^V) itself and shows them all the time");
+            throw Error(
+                fmt::format("'{}' is a control character, which is not allowed in a line", line),
+                {},
+                "^A, ^D and ^K are allowed alone; the driver requests the reports (^B, ^C, ^F, ^G, ^P, "
+                "^V) itself and shows them all the time");
         }
         if (jogs_without_end(line)) {
             throw Error(fmt::format("'{}' would jog without an end", line),
@@ -102,20 +124,86 @@ void PmacSession::check_goals(const std::vector<std::string>& lines) const {
     }
 }
 
-/// Whether that is all there is to do about `lines`.
+/// Whether that is all there is to do about `lines`: stops of what is under way, and of what PLC programs
+/// move.
 bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
-    if (!active() || stage_ == Stage::loading) {
-        return false;
-    }
-    if (std::all_of(lines.begin(), lines.end(), only_kills)) {
+    constexpr std::uint32_t program_runs = 1; // the card refuses a K then
+    const bool busy = active() || stage_ == Stage::commanding;
+    const bool moves = stage_ == Stage::moving_by_command || (rests() && !standing());
+    if ((busy || (moves && (system_1_ & program_runs) != 0)) && are_all(lines, only_kills)) {
         fail("a command disabled the motors");
-    } else if (std::all_of(lines.begin(), lines.end(), only_stops)) {
+    } else if ((busy || (moves && plcs_run_)) && are_all(lines, only_stops)) {
         halt();
+    } else if (stage_ == Stage::commanding && are_all(lines, only_disables_plcs)) {
+        switch_plcs_off();
+        return true;
     } else {
         return false;
     }
     answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
     return true;
+}
+
+/// Whether `given` is a control character that stops, by its name, and has been acted on. A character itself
+/// would act on more: ^A gives power to killed motors, ^D stops the guard.
+bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
+    std::string key = given.size() == 1 ? given.front() : "";
+    std::erase(key, ' ');
+    const bool heard = stage_ != Stage::closed && stage_ != Stage::greeting && !link_lost_;
+    if (!heard || key.size() != 2 || key.front() != '^') {
+        return false;
+    }
+    switch (key.back()) {
+    case 'A':
+    case 'a':
+        if (rests() && !standing()) {
+            finish(Stage::stopping);
+            unbraked_ = true;
+        }
+        halt();
+        break;
+    case 'K':
+    case 'k':
+        if (active() || stage_ == Stage::commanding || stage_ == Stage::moving_by_command) {
+            fail("a command disabled the motors");
+        } else {
+            kill();
+            switch_plcs_off();
+        }
+        break;
+    case 'D':
+    case 'd':
+        if (buffer_open_ || stage_ == Stage::loading) {
+            halt();
+        }
+        switch_plcs_off();
+        break;
+    default:
+        return false;
+    }
+    if (answer_.state != drivers::CommandAnswer::State::pending) {
+        answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    }
+    return true;
+}
+
+/// What a program of the card does nobody here has read: it may enable motors.
+void PmacSession::check_programs(const std::vector<std::string>& lines, bool file) const {
+    if (lines_may_power_ || enabled()) {
+        return;
+    }
+    bool stored = false;
+    for (const std::string& line : lines) {
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+        if (!stored && (enables_plc(line) || runs_program(line)) && !only_stops(line)) {
+            throw PowerRefused(
+                fmt::format("'{}' runs a program of the card, which could enable motors", line),
+                {},
+                file ? "leave the line out of the file, inspect the machine, enable its motors, "
+                       "then send the line"
+                     : "inspect the machine, then enable its motors");
+        }
+    }
 }
 
 /// The first motor without power that `lines` would give it to.
@@ -209,6 +297,9 @@ void PmacSession::keep_until_close(const std::vector<std::string>& lines) {
 }
 
 int PmacSession::command(const std::vector<std::string>& given, bool all) {
+    if (acted_on_key(given)) {
+        return answer_.number;
+    }
     const std::vector<std::string> parts = split_at_buffer_words(given);
     check_command(parts);
     check_open(parts);
@@ -224,26 +315,27 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     }
     const auto rest = parts.begin() + static_cast<std::ptrdiff_t>(now);
     const std::vector<std::string> typed(parts.begin(), rest);
-    const std::vector<std::string> lines = all ? typed : typed_.completed(typed);
+    std::vector<std::string> lines = all ? typed : typed_.completed(typed);
     check_goals(lines);
     check_buffers(all ? parts : typed_.completed(parts));
     if (stopped_by_command(lines) || brakes_instead(lines)) {
         return answer_.number;
     }
+    check_programs(lines, all);
+    if (plcs_run_ && are_all(lines, only_kills)) {
+        lines.insert(lines.begin(), disable_plcs); // else they would give the power back
+    }
     const bool waits = answer_.state == drivers::CommandAnswer::State::pending;
-    const bool asks = std::all_of(lines.begin(), lines.end(), only_asks);
+    const bool asks = are_all(lines, asks_or_disables_plcs);
     if (!asks && rests()) {
         give_jog_speeds_back();
     }
-    const bool stops = std::all_of(
-        lines.begin(), lines.end(), [](const auto& line) { return only_stops(line) || only_kills(line); });
-    if (stage_ == Stage::moving_by_command && stops) {
+    const bool moves = stage_ == Stage::moving_by_command || (rests() && !standing());
+    if (moves && !asks && are_all(lines, only_ends_motion)) {
         finish(Stage::commanding);
-    } else if (stage_ == Stage::alarm && !waits && !link_lost_ &&
-               std::all_of(lines.begin(), lines.end(), only_sets)) {
+    } else if (stage_ == Stage::alarm && !waits && !link_lost_ && are_all(lines, is_taken_in_alarm)) {
         // nothing has power: what a test of a motor had borrowed is given back
-    } else if (waits || !asks || !(active() || stage_ == Stage::moving_by_command) ||
-               stage_ == Stage::loading) {
+    } else if (waits || !asks || !(active() || moves) || stage_ == Stage::loading) {
         require_rest("a command");
         finish(Stage::commanding);
     }
@@ -253,11 +345,29 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     return answer_.number;
 }
 
-/// The lines of a buffer that the card did not open would act at once.
+/// Behind a refused OPEN, whose lines would act at once. CLOSE is sent all the same: a card opens the buffer
+/// before it refuses what stands behind its number.
 void PmacSession::skip_buffer() {
-    buffer_open_ = false;
+    constexpr std::size_t named = 10;
     const auto close = std::ranges::find_if(command_lines_, closes_buffer);
-    command_lines_.erase(command_lines_.begin(), close == command_lines_.end() ? close : std::next(close));
+    const std::vector<std::string> skipped(command_lines_.begin(), close);
+    command_lines_.erase(command_lines_.begin(), close);
+    if (command_lines_.empty()) {
+        command_lines_.emplace_back("CLOSE");
+    }
+    for (std::size_t n = 0; n < std::min(named, skipped.size()); ++n) {
+        answer_.text += fmt::format("\n'{}' is not executed: its buffer was not opened", skipped[n]);
+    }
+    if (skipped.size() == named + 1) {
+        answer_.text += fmt::format("\n'{}' is not executed: its buffer was not opened", skipped.back());
+    } else if (skipped.size() > named) {
+        const std::size_t more = skipped.size() - named - 1;
+        answer_.text += fmt::format("\n'{}' and the {} {} behind it, up to '{}', are not executed",
+                                    skipped[named],
+                                    more,
+                                    more == 1 ? "line" : "lines",
+                                    skipped.back());
+    }
 }
 
 void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
@@ -269,6 +379,11 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
     stays_armed_ = stays_armed_ || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
                        return may_move_later(line, settings_.system);
                    });
+    bool stored = false;
+    for (const std::string& line : lines) {
+        stored = opens_buffer(line) || (stored && !closes_buffer(line));
+        plcs_run_ = plcs_run_ || (!stored && enables_plc(line));
+    }
     int addressed = 0;
     closes_loops_ = false;
     for (const std::string& line : lines) {
@@ -281,7 +396,7 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
             }
         }
     }
-    gave_power_ = gave_power_ || closes_loops_;
+    gave_power_ = gave_power_ || closes_loops_ || plcs_run_;
     commanded_.clear();
     for (const std::string& line : lines) {
         commanded_ += line + "\n";

@@ -1,6 +1,7 @@
 // Before the link is dropped: what moves comes to rest, and motors lose the power that nobody would watch
 // over.
 #include "core/pmac/driver/internal/pmac_session.h"
+#include "core/pmac/driver/internal/watchdog.h"
 
 #include <algorithm>
 
@@ -9,6 +10,7 @@ namespace millwright::pmac::internal {
 namespace {
 
 constexpr double kill_patience = 1.0; // s until a kill has to be seen; it is sent again with each report
+constexpr int enough_reports = 2;     // the first may be of just before a PLC program gave power again
 
 } // namespace
 
@@ -25,7 +27,7 @@ bool PmacSession::takes_power() const {
     case Parting::as_found:
         return !found_power_ && (any_power() || gave_power_);
     case Parting::takes_power:
-        return any_power() || (gave_power_ && under_way);
+        return any_power() || plcs_run_ || (gave_power_ && under_way);
     }
     return true;
 }
@@ -65,14 +67,16 @@ void PmacSession::part(double now) {
         forget_all();
         kill();
         ask("CLOSE");
+        plcs_run_ = true; // a program of the card may have enabled one, too
+        ask(disable_plcs);
         give_jog_speeds_back();
         finish(Stage::parting);
         kill_by_ = now + kill_patience;
-        killed_seen_ = false;
+        quiet_reports_ = 0;
         return;
     }
     const bool over = now > *kill_by_;
-    if (killed_seen_ && (over || (queue_.empty() && talk_.idle()))) {
+    if (quiet_reports_ >= enough_reports && (over || (queue_.empty() && talk_.idle()))) {
         finish(Stage::stopped);
         end_leaving();
     } else if (over) {
@@ -93,8 +97,21 @@ void PmacSession::end_leaving() {
 void PmacSession::watch_parting() {
     if (any_power()) {
         kill(); // what was sent may have been lost
-    } else {
-        killed_seen_ = true;
+        quiet_reports_ = 0;
+    } else if (!plcs_run_) {
+        ++quiet_reports_;
+    }
+}
+
+/// All but the guard, before what else is to be asked: they would move what is just stopped. A buffer that is
+/// open is closed; of a command nothing more is sent then, since its lines would act at once.
+void PmacSession::switch_plcs_off() {
+    plcs_run_ = true;
+    queue_.push_front({disable_plcs, Kind::step, 0});
+    if (buffer_open_) {
+        command_lines_.clear();
+        std::erase_if(queue_, [](const Request& request) { return request.kind == Kind::command; });
+        queue_.push_front({"CLOSE", Kind::step, 0});
     }
 }
 

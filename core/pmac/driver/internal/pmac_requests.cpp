@@ -152,6 +152,9 @@ void PmacSession::halt() {
         finish(Stage::stopping);
         unbraked_ = true; // the next report tells what the command set going
     }
+    if (plcs_run_) {
+        switch_plcs_off();
+    }
 }
 
 /// What a command set going: the motors with power alone, since J/ would give it to the others, too.

@@ -45,7 +45,7 @@ void PmacSession::opened(double now) {
     greet_at_ = opened_at_ = now;
     host_stall_.begin(now);
     buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
-    found_power_ = gave_power_ = stays_armed_ = false;
+    found_power_ = gave_power_ = stays_armed_ = plcs_run_ = false;
     guard_.forget();
     end_leaving();
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
@@ -298,6 +298,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
     if (starts_with_word(request.line, "CLOSE")) {
         buffer_open_ = false;
     }
+    plcs_run_ = plcs_run_ && request.line != disable_plcs;
     switch (request.kind) {
     case Kind::poll:
         read_poll(lines, now);
@@ -351,10 +352,16 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
 }
 
 void PmacSession::refused_command(const Request& request, bool loop_is_open, const std::string& why) {
+    const bool opens = starts_with_word(request.line, "OPEN");
+    const std::string lacks =
+        buffer_open_ && !opens ? fmt::format("; the program of '{}' is stored {} this line and is incomplete",
+                                             opened_by_,
+                                             command_goes_on_ ? "without" : "only up to")
+                               : "";
     if (command_goes_on_) {
-        answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+        answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
         command_refused_ = true;
-        if (starts_with_word(request.line, "OPEN")) {
+        if (opens) {
             skip_buffer();
         }
         next_command();
@@ -368,7 +375,7 @@ void PmacSession::refused_command(const Request& request, bool loop_is_open, con
         ask_whose_loop_is_open(why);
         return;
     }
-    answer_.text += (answer_.text.empty() ? "" : "\n") + why;
+    answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
     if (buffer_open_) {
         ask("CLOSE");
     }
@@ -398,6 +405,9 @@ void PmacSession::refused(const Request& request, int error) {
         refused_command(request, error == loop_is_open, why);
         return;
     }
+    if (request.kind == Kind::step && request.line == "CLOSE") {
+        return; // a program that was not written to its end has no sound structure
+    }
     if (request.kind == Kind::definitions) { // a card that does not tell
         explain_open_loop(run_refusal_);
         return;
@@ -425,13 +435,15 @@ void PmacSession::refused(const Request& request, int error) {
 void PmacSession::next_command() {
     if (command_lines_.empty()) {
         if (buffer_open_) {
-            ask("CLOSE");
+            ask("CLOSE", Kind::command);
+            return;
         }
         finish_command(command_refused_ ? drivers::CommandAnswer::State::refused
                                         : drivers::CommandAnswer::State::done);
         return;
     }
     const bool opens = starts_with_word(command_lines_.front(), "OPEN");
+    opened_by_ = opens ? command_lines_.front() : opened_by_;
     if (armed_ && opens) { // nobody is heard while a buffer is open
         ask(disarm_watchdog, Kind::watch);
         armed_ = false;

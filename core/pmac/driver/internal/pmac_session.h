@@ -65,7 +65,7 @@ public:
     /// that is not closed yet are kept, and sent with its CLOSE. While motors move, only lines that ask or
     /// stop, which during a program, a jog and homing do what stop() does; taking power away is an alarm
     /// then. Throws Error for anything else, and for jogs without an end and open loops. In an alarm only
-    /// variables are set.
+    /// variables are set, besides lines that ask, kill or disable PLC programs.
     int command(const std::vector<std::string>& given, bool all);
     /// Lines that wait for the CLOSE of their buffer, from its OPEN on.
     [[nodiscard]] const std::vector<std::string>& kept_lines() const { return typed_.kept(); }
@@ -204,6 +204,7 @@ private:
     void part(double now);
     void watch_parting();
     void end_leaving();
+    void switch_plcs_off();
 
     // pmac_requests.cpp: what a person wants
     [[nodiscard]] bool active() const;
@@ -235,6 +236,8 @@ private:
     void check_goals(const std::vector<std::string>& lines) const;
     void check_open(const std::vector<std::string>& lines) const;
     void check_buffers(const std::vector<std::string>& lines) const;
+    void check_programs(const std::vector<std::string>& lines, bool file) const;
+    bool acted_on_key(const std::vector<std::string>& given);
     void skip_buffer();
     void keep_until_close(const std::vector<std::string>& lines);
     void begin_command(const std::vector<std::string>& lines, bool all);
@@ -307,7 +310,8 @@ private:
     bool found_power_ = false;        ///< some motor has had power since before the link was made
     bool gave_power_ = false;         ///< to some motor, by a request since then
     bool leaving_ = false;            ///< the link is going to be dropped
-    bool killed_seen_ = false;        ///< no motor has power, by a report behind the last kill
+    int quiet_reports_ = 0;           ///< in which no motor had power, behind the last kill
+    bool plcs_run_ = false;           ///< other PLC programs than the guard may, as far as is known
     std::optional<double> kill_by_{}; ///< s; then a kill counts as unseen
     std::string farewell_{};
     std::optional<double> jog_until_;
@@ -316,6 +320,7 @@ private:
 
     TypedBuffer typed_;
     std::deque<std::string> command_lines_;
+    std::string opened_by_{}; ///< the line of theirs that opened the buffer
     bool command_goes_on_ = false;
     bool command_refused_ = false;   ///< a line of it, and it went on
     std::string addresses_ = "#1&1"; ///< those of the person's commands

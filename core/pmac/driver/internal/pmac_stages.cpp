@@ -229,6 +229,7 @@ void PmacSession::fail(std::string why) {
     tell(false, drivers::ConsoleKind::fault, why);
     finish(Stage::alarm, std::move(why));
     ask("CLOSE");
+    ask(disable_plcs); // they could give the power back
     give_jog_speeds_back();
 }
 

@@ -16,6 +16,7 @@ namespace millwright::pmac::internal {
 
 inline constexpr const char* arm_watchdog = "P1002=M1000 P1000=0 P1006=0 P1001=1";
 inline constexpr const char* disarm_watchdog = "P1001=0";
+inline constexpr const char* disable_plcs = "DISABLE PLC 0..30"; ///< all but the guard
 inline constexpr const char* sign_of_life = "P1002=M1000";
 inline constexpr double heard_nothing = -1.0; ///< P1000 where it has stopped the motion
 

@@ -1,6 +1,7 @@
 #include "core/pmac/emulator/internal/lexer.h"
 
 #include "core/base/text.h"
+#include "core/pmac/driver/card_words.h"
 
 #include <algorithm>
 #include <array>
@@ -10,53 +11,6 @@
 namespace millwright::pmac::card {
 
 namespace {
-
-struct Keyword {
-    std::string_view full, brief;
-};
-
-// Longest first where one begins another.
-constexpr std::array<Keyword, 78> keywords{{
-    {"UNDEFINE", "UNDEF"},  {"BLOCKSTART", "BSTART"},
-    {"BLOCKSTOP", "BSTOP"}, {"ENDWHILE", "ENDW"},
-    {"VERSION", "VER"},     {"CIRCLE1", "CIR1"},
-    {"CIRCLE2", "CIR2"},    {"STIMULUS", "STIM"},
-    {"DISABLE", "DIS"},     {"ENABLE", "ENA"},
-    {"DELETE", "DEL"},      {"DEFINE", "DEF"},
-    {"RETURN", "RET"},      {"NORMAL", "NRM"},
-    {"LINEAR", "LIN"},      {"GATHER", "GAT"},
-    {"CLOSE", "CLS"},       {"CLEAR", "CLR"},
-    {"GOSUB", "GOS"},       {"TRACE", "TRAC"},
-    {"ENDIF", "ENDI"},      {"WHILE", "WHILE"},
-    {"RAPID", "RPD"},       {"DWELL", "DWE"},
-    {"DELAY", "DLY"},       {"HOMEZ", "HMZ"},
-    {"ATAN2", "ATAN2"},     {"HOME", "HM"},
-    {"OPEN", "OPEN"},       {"LIST", "LIST"},
-    {"SAVE", "SAVE"},       {"SIZE", "SIZE"},
-    {"TYPE", "TYPE"},       {"PROG", "PROG"},
-    {"FRAX", "FRAX"},       {"PSET", "PSET"},
-    {"ELSE", "ELSE"},       {"GOTO", "GOTO"},
-    {"CALL", "CALL"},       {"STOP", "STOP"},
-    {"SEND", "SEND"},       {"ASIN", "ASIN"},
-    {"ACOS", "ACOS"},       {"ATAN", "ATAN"},
-    {"SQRT", "SQRT"},       {"ROT", "ROT"},
-    {"PLC", "PLC"},         {"ABS", "ABS"},
-    {"INC", "INC"},         {"CMD", "CMD"},
-    {"AND", "AND"},         {"SIN", "SIN"},
-    {"COS", "COS"},         {"TAN", "TAN"},
-    {"EXP", "EXP"},         {"INT", "INT"},
-    {"ALL", "ALL"},         {"RHX", "RHX"},
-    {"RHY", "RHY"},         {"RHL", "RHL"},
-    {"RX", "RX"},           {"RY", "RY"},
-    {"RL", "RL"},           {"WX", "WX"},
-    {"WY", "WY"},           {"WL", "WL"},
-    {"DP", "DP"},           {"IF", "IF"},
-    {"OR", "OR"},           {"LN", "LN"},
-    {"TA", "TA"},           {"TS", "TS"},
-    {"TM", "TM"},           {"PR", "PR"},
-    {"PC", "PC"},           {"ZZ", "ZZ"},
-    {"DATE", "DATE"},       {"PASSWORD", "PASSWORD"},
-}};
 
 constexpr std::array<std::string_view, 9> long_symbols{
     "$$$***", "$$$", "???", "??", "->", "..", "!=", "!>", "!<"};
@@ -183,18 +137,8 @@ private:
     }
 
     bool word() {
-        const Keyword* best = nullptr;
-        std::size_t length = 0;
-        for (const Keyword& one : keywords) {
-            for (const std::string_view form : {one.full, one.brief}) {
-                if (rest_.starts_with(form) && form.size() > length) {
-                    best = &one;
-                    length = form.size();
-                }
-            }
-        }
-        if (best != nullptr) {
-            add(Token::Kind::word, best->full, length, best->brief);
+        if (const auto known = card_word(rest_)) {
+            add(Token::Kind::word, known->full, known->length, known->brief);
             return true;
         }
         if (rest_.front() < 'A' || rest_.front() > 'Z') {

@@ -22,34 +22,77 @@ using testing::IsEmpty;
 using testing::Not;
 
 /// Everything that stops the guard, misleads it, or keeps the card from looking after it.
-const std::vector<std::string> weakening{"I5=0",          "I5=1",
-                                         "i 5 = 0",       "I5=4",
-                                         "I5=$0",         "I5=*",
-                                         "I5=P1",         "I4..6=0",
-                                         "I0..99=*",      "P7=1 I5=0",
-                                         "I(5)=0",        "I(P1+4)=0",
-                                         "I8=255",        "I8=Q1",
-                                         "I10=8388607",   "DISABLE PLC 31",
-                                         "dis plc31",     "DISABLE PLC 0..31",
-                                         "DISPLC1,31",    "DISABLE PLC 30..31,2",
-                                         "OPEN PLC 31",   "OPEN PLC31 CLEAR",
-                                         "P1001=0",       "P$3E9=0",
-                                         "P(1001)=0",     "P1..1023=0",
-                                         "P1002=8388607", "P1003=5",
-                                         "M1000->*",      "M1000->Y:$C003,8,16",
-                                         "M1001=0",       "M1..1023=0",
-                                         "CMD\"I5=0\"",   "CMD\"DISABLE PLC 31\"",
-                                         "CMD^D",         "WX:$1000,0",
-                                         "wy $13E8,$0",   "WL:$13E8,1,2",
-                                         "WX4096,0",      "WDP:$1000,0",
-                                         "WX:$787,$D,1",  "WY:$783,1",
-                                         "WY:$73F,1,2",   "CMD\"WX:$1000,0\"",
-                                         "WX:(P1),0",     "WY:$FFFFFF,0",
-                                         "M50->L:$13E8",  "m50 -> x:$1000,0,24",
-                                         "M50->DP:$1000", "M50->D:$C",
-                                         "M50->L:5096",   "CMD\"M50->L:$13E8\"",
-                                         "M50->Y:$0,0",   "M1->* M50->TWS:$1000",
-                                         "M50->L:(P1)",   "M1..60->L:$13E8"};
+const std::vector<std::string> weakening{"I5=0",
+                                         "I5=1",
+                                         "i 5 = 0",
+                                         "I5=4",
+                                         "I5=$0",
+                                         "I5=*",
+                                         "I5=P1",
+                                         "I4..6=0",
+                                         "I0..99=*",
+                                         "P7=1 I5=0",
+                                         "I(5)=0",
+                                         "I(P1+4)=0",
+                                         "I8=255",
+                                         "I8=Q1",
+                                         "I10=8388607",
+                                         "DISABLE PLC 31",
+                                         "dis plc31",
+                                         "DISABLE PLC 0..31",
+                                         "DISPLC1,31",
+                                         "DISABLE PLC 30..31,2",
+                                         "OPEN PLC 31",
+                                         "OPEN PLC31 CLEAR",
+                                         "P1001=0",
+                                         "P$3E9=0",
+                                         "P(1001)=0",
+                                         "P1..1023=0",
+                                         "P1002=8388607",
+                                         "P1003=5",
+                                         "M1000->*",
+                                         "M1000->Y:$C003,8,16",
+                                         "M1001=0",
+                                         "M1..1023=0",
+                                         "CMD\"I5=0\"",
+                                         "CMD\"DISABLE PLC 31\"",
+                                         "CMD^D",
+                                         "WX:$1000,0",
+                                         "wy $13E8,$0",
+                                         "WL:$13E8,1,2",
+                                         "WX4096,0",
+                                         "WDP:$1000,0",
+                                         "WX:$787,$D,1",
+                                         "WY:$783,1",
+                                         "WY:$73F,1,2",
+                                         "CMD\"WX:$1000,0\"",
+                                         "WX:(P1),0",
+                                         "WY:$FFFFFF,0",
+                                         "M50->L:$13E8",
+                                         "m50 -> x:$1000,0,24",
+                                         "M50->DP:$1000",
+                                         "M50->D:$C",
+                                         "M50->L:5096",
+                                         "CMD\"M50->L:$13E8\"",
+                                         "M50->Y:$0,0",
+                                         "M1->* M50->TWS:$1000",
+                                         "M50->L:(P1)",
+                                         "M1..60->L:$13E8",
+                                         "IF(P9=1)CMD\"(\"ENDIF P1002=M1000",
+                                         "IF(P9=1 P1002=M1000",
+                                         "P7=(P8 I5=0",
+                                         "IF(P9=1)CMD\"IF(P8=1)I5=0\"",
+                                         "P7=SIN(CMD\"I5=0\")",
+                                         "I102=$13E8",
+                                         "I802=5096",
+                                         "I3202=$13E8",
+                                         "I102=P1",
+                                         "I100..199=1",
+                                         "I202=$113E8",
+                                         "I102=$73F",
+                                         "I125=$1313E8",
+                                         "I425=M1",
+                                         "I125=$0"};
 
 TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
     for (const std::string& line : weakening) {
@@ -64,6 +107,15 @@ TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
                                    "I50=0",
                                    "I105=0",
                                    "I130=5",
+                                   "I102=$C003",
+                                   "I102=49155",
+                                   "I202=$1C002",
+                                   "I502=$7F0",
+                                   "I102=*",
+                                   "I100..199=*",
+                                   "I902=10",
+                                   "I302",
+                                   "I125=$13C000",
                                    "P1001",
                                    "M1000->",
                                    "P1=P1001",
@@ -71,6 +123,9 @@ TEST(PmacGuardRules, FindWhatWeakensTheGuardWhereverItStandsInALine) {
                                    "P1007=0",
                                    "P(Q1)=3",
                                    "IF(I5=0)",
+                                   "IF(P9=1)CMD\"(\"ENDIF P7=M1000",
+                                   "CMD\"IF(I5=0)\"",
+                                   "IF((P1=1)AND(P1001=1))SEND\")\"",
                                    "WHILE(P1001=1)",
                                    "DISABLE PLC 1..30",
                                    "ENABLE PLC 31",
@@ -190,6 +245,27 @@ std::string program_with(const std::string& line) {
     return "OPEN PROG 7\nCLEAR\nINC\nLINEAR\nFRAX(X)\nF5\nX2\n" + line + "\nX2\nX2\nX70\nCLOSE\n";
 }
 
+// The guard took each scan of it for a sign of life: joint 1 went on without an end.
+TEST(PmacLinkGuardF2, AParenthesisInQuotedTextHidesNothingFromIt) {
+    const std::string program = "OPEN PLC 5\nCLEAR\nIF(P9=1)CMD\"(\"ENDIF P1002=M1000\nCLOSE\n";
+    EXPECT_THAT(refusal([&] { (void)read_pmac_file(program, "a.ini"); }),
+                testing::AllOf(HasSubstr("a.ini:3:"), HasSubstr("P1000 to P1006 are reserved")));
+    PmacWire wire;
+    wire.session.let_lines_give_power();
+    EXPECT_THAT(refusal([&] {
+                    (void)wire.session.command(
+                        {"OPEN PLC 5", "CLEAR", "IF(P9=1)CMD\"(\"ENDIF P1002=M1000", "CLOSE"}, false);
+                    wire.pass(0.5);
+                    (void)wire.session.command({"ENABLE PLC 5"}, false);
+                }),
+                HasSubstr("would weaken the guard"));
+    wire.pass(0.5);
+    wire.session.jog(jog_of(0, 80.0, 5.0), wire.now);
+    wire.pass(1.5);
+    ASSERT_FALSE(wire.standing());
+    EXPECT_LT(runs_on_when_frozen(wire), braking_deg);
+}
+
 // What the card has in its memory nobody here has read.
 TEST(PmacLinkGuardF2, AProgramOfTheCardThatSwitchesItOffEndsInAlarm) {
     for (const char* const line :
@@ -212,6 +288,7 @@ TEST(PmacLinkGuardF2, AProgramOfTheCardThatSwitchesItOffEndsInAlarm) {
 TEST(PmacLinkGuardF2, WithoutItMotorsGetNoPowerAndItIsListed) {
     PmacWire wire({}, false, "XYZA", {}, "OPEN PLC 5\nCLEAR\nI5=0\nCLOSE\n");
     EXPECT_THAT(wire.session.protections_off().value(), Not(Contains(HasSubstr("PLC 31"))));
+    wire.session.let_lines_give_power();
     (void)wire.session.command({"ENABLE PLC 5"}, false);
     wire.pass(1.0);
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);

@@ -327,8 +327,10 @@ TEST(PmacTypedLines, TakesNoControlCharacterByItsName) {
             (void)wire.session.command({"#1J:9000"}, false);
             ASSERT_TRUE(wire.run_until([&] { return wire.card.command(1) > 100.0; }, 3.0));
         }
-        EXPECT_THAT(refusal([&] { (void)wire.session.command({"^A"}, false); }),
-                    HasSubstr("control character"));
+        for (const std::string line : {"^R", "^O", "^A #1J:5", "^KR"}) {
+            EXPECT_THAT(refusal([&] { (void)wire.session.command({line}, false); }),
+                        HasSubstr("control character"));
+        }
     }
 }
 
