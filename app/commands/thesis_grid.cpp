@@ -145,6 +145,11 @@ void print_ending(const grid::OptimiserState& state,
 
 /// Refuses files that the method does not have before it works.
 void expect_files_of(const GridOptions& options, GridMethod method) {
+    if (!options.start.empty() && method == GridMethod::uniform) {
+        throw UsageError("--start does not apply to --method uniform",
+                         {},
+                         "leave it out, or choose a method that changes the start grid");
+    }
     const bool elliptic = method == GridMethod::elliptic;
     if (!options.residuals.empty() && !elliptic) {
         throw UsageError("--residuals applies only to --method elliptic",
@@ -171,12 +176,12 @@ int write_adapted_grid(const GridOptions& options, GridMethod method) {
     const Interrupt interrupt;
     const OpenedProject opened = open_project(options.project);
     const project::GridInput& input = opened.project.grid;
-    const std::optional<grid::Grid> start =
-        options.start.empty() ? std::nullopt : std::optional(start_grid(options, input));
     if (method == GridMethod::uniform) {
-        write_nodes(options, start ? start->array() : grid::Grid::uniform(input.nu, input.nv).array());
+        write_nodes(options, grid::Grid::uniform(input.nu, input.nv).array());
         return 0;
     }
+    const std::optional<grid::Grid> start =
+        options.start.empty() ? std::nullopt : std::optional(start_grid(options, input));
     const toolpath::KinematicError error =
         plan::cutting_setup_of(opened.project, opened.folders).error_model();
     const auto optimiser = plan::make_optimiser(method, input, error, plan::Effort::full, start);

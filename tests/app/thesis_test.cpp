@@ -306,18 +306,25 @@ TEST(ThesisCommand, WritesTheGridOfEveryMethod) {
         const Ended ended = run({"thesis", "grid", project, "--method", method, "--out", file});
         ASSERT_EQ(ended.exit_code, 0) << method << ended.err;
         EXPECT_EQ(std::ranges::count(content_of(file), '\n'), 12) << method;
-        const Ended again = run({"thesis",
-                                 "grid",
-                                 project,
-                                 "--method",
-                                 "uniform",
-                                 "--start",
-                                 file,
-                                 "--out",
-                                 scratch / "same.dat"});
-        EXPECT_EQ(again.exit_code, 0) << method << again.err;
-        EXPECT_EQ(content_of(scratch / "same.dat"), content_of(file)) << method << ": blocks are read back";
     }
+}
+
+// It wrote the start grid, which is not the uniform one.
+TEST(ThesisCommand, TheUniformGridTakesNoStart) {
+    const ScratchFolder scratch;
+    const auto project = small_project(scratch.path(), "dome");
+    const std::vector<std::string> words{"thesis", "grid", project, "--out", scratch / "o.dat", "--method"};
+    const auto by = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return run(more);
+    };
+    EXPECT_EQ(by({"tracks"}).exit_code, 0);
+    std::filesystem::rename(scratch / "o.dat", scratch / "tracks.dat");
+    const Ended refused = by({"uniform", "--start", scratch / "tracks.dat"});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--start does not apply to --method uniform"));
+    EXPECT_FALSE(std::filesystem::exists(scratch / "o.dat"));
+    EXPECT_EQ(by({"chain", "--start", scratch / "tracks.dat"}).exit_code, 0) << "blocks are read back";
 }
 
 TEST(ThesisCommand, WritesTheFilesOfTheProjectsOwnMachineAndDirection) {
