@@ -74,7 +74,7 @@ void draw_extents(Ui& ui, const actions::StartCheck& check) {
     }
     if (const std::string& modes = check.wish->program_check.modes; !modes.empty()) {
         ui.value("modes",
-                 "Modes before start",
+                 "Start modes",
                  modes,
                  {},
                  "The modes that the controller reports; the check of the extents begins in them");
