@@ -133,8 +133,11 @@ struct CollisionMesh::Search {
     NearPlace best{infinite, Vec3::Zero()};
 
     void look(const Vec3& point, double distance) {
-        if (distance < best.distance) {
-            best = {distance, point};
+        if (!(distance < best.distance)) {
+            return;
+        }
+        best = {distance, point};
+        if (distance < wanted.below) { // a place beyond says nothing of those that are wanted
             enough = distance <= wanted.settled
                          ? -infinite
                          : std::min(enough, distance - slack(distance, wanted.tolerance));
