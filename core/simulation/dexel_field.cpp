@@ -183,60 +183,83 @@ double DexelField::filled_part(int k, const std::array<int, 3>& cell) const {
     return std::min(length / cell_[k], 1.0);
 }
 
-double DexelField::volume() const {
-    // Cells in layers along X: the lines along Z give the whole, cells at the surface are weighed anew.
-    const int nx = size_.count[0], ny = size_.count[1], nz = size_.count[2];
-    std::vector<double> layers(static_cast<std::size_t>(nx));
-    // Which cells of each layer an end lies in: of lines along X these are found line by line first.
-    std::vector<std::vector<std::uint64_t>> ends(static_cast<std::size_t>(nx));
-    const auto cell_at = [&](int axis, float at) {
-        return std::clamp(static_cast<int>(static_cast<double>(at) / cell_[axis]),
-                          0,
-                          size_.count[static_cast<std::size_t>(axis)] - 1);
-    };
-    const auto key = [&](int y, int z) {
-        return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(nz) + static_cast<std::uint64_t>(z);
-    };
-    for (int z = 0; z < nz; ++z) {
-        for (int y = 0; y < ny; ++y) {
+/// The cell of a place, which is measured from the box.
+int DexelField::cell_at(int axis, float at) const {
+    return std::clamp(static_cast<int>(static_cast<double>(at) / cell_[axis]),
+                      0,
+                      size_.count[static_cast<std::size_t>(axis)] - 1);
+}
+
+std::uint64_t DexelField::layer_key(int y, int z) const {
+    return static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(size_.count[2]) +
+           static_cast<std::uint64_t>(z);
+}
+
+/// Of each layer across X the cells in which lines along X end: these are found line by line.
+std::vector<DexelField::LayerCells> DexelField::ends_along_x() const {
+    std::vector<LayerCells> ends(static_cast<std::size_t>(size_.count[0]));
+    for (int z = 0; z < size_.count[2]; ++z) {
+        for (int y = 0; y < size_.count[1]; ++y) {
             for (const Dexel& piece : line(0, y, z)) {
-                ends[static_cast<std::size_t>(cell_at(0, piece.from))].push_back(key(y, z));
-                ends[static_cast<std::size_t>(cell_at(0, piece.to))].push_back(key(y, z));
+                ends[static_cast<std::size_t>(cell_at(0, piece.from))].push_back(layer_key(y, z));
+                ends[static_cast<std::size_t>(cell_at(0, piece.to))].push_back(layer_key(y, z));
             }
         }
     }
+    return ends;
+}
+
+void DexelField::add_ends_across_x(int x, LayerCells& ends) const {
+    for (int y = 0; y < size_.count[1]; ++y) {
+        for (const Dexel& piece : line(2, x, y)) {
+            ends.push_back(layer_key(y, cell_at(2, piece.from)));
+            ends.push_back(layer_key(y, cell_at(2, piece.to)));
+        }
+    }
+    for (int z = 0; z < size_.count[2]; ++z) {
+        for (const Dexel& piece : line(1, z, x)) {
+            ends.push_back(layer_key(cell_at(1, piece.from), z));
+            ends.push_back(layer_key(cell_at(1, piece.to), z));
+        }
+    }
+}
+
+/// Of the lines of a layer, in cells.
+double DexelField::length_along_z(int x) const {
+    double sum = 0.0;
+    for (int y = 0; y < size_.count[1]; ++y) {
+        for (const Dexel& piece : line(2, x, y)) {
+            sum += static_cast<double>(piece.to - piece.from) / cell_.z();
+        }
+    }
+    return sum;
+}
+
+/// In cells: the lines along Z give the whole, cells at the surface are weighed anew.
+double DexelField::layer_volume(int x, LayerCells ends) const {
+    add_ends_across_x(x, ends);
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    double sum = length_along_z(x);
+    const auto nz = static_cast<std::uint64_t>(size_.count[2]);
+    for (const std::uint64_t at : ends) {
+        const std::array<int, 3> cell{x, static_cast<int>(at / nz), static_cast<int>(at % nz)};
+        const std::array<double, 3> part{filled_part(0, cell), filled_part(1, cell), filled_part(2, cell)};
+        const double best =
+            *std::ranges::min_element(part, {}, [](double share) { return std::abs(share - 0.5); });
+        sum += best - part[2];
+    }
+    return sum;
+}
+
+double DexelField::volume() const {
+    const int nx = size_.count[0];
+    std::vector<double> layers(static_cast<std::size_t>(nx));
+    std::vector<LayerCells> ends = ends_along_x();
     constexpr std::ptrdiff_t layers_per_chunk = 4;
     parallel_for(nx, layers_per_chunk, [&](std::ptrdiff_t layer) {
-        const int x = static_cast<int>(layer);
-        auto& found = ends[static_cast<std::size_t>(layer)];
-        double sum = 0.0;
-        for (int y = 0; y < ny; ++y) {
-            for (const Dexel& piece : line(2, x, y)) {
-                sum += static_cast<double>(piece.to - piece.from) / cell_.z();
-                found.push_back(key(y, cell_at(2, piece.from)));
-                found.push_back(key(y, cell_at(2, piece.to)));
-            }
-        }
-        for (int z = 0; z < nz; ++z) {
-            for (const Dexel& piece : line(1, z, x)) {
-                found.push_back(key(cell_at(1, piece.from), z));
-                found.push_back(key(cell_at(1, piece.to), z));
-            }
-        }
-        std::ranges::sort(found);
-        found.erase(std::unique(found.begin(), found.end()), found.end());
-        for (const std::uint64_t at : found) {
-            const std::array<int, 3> cell{x,
-                                          static_cast<int>(at / static_cast<std::uint64_t>(nz)),
-                                          static_cast<int>(at % static_cast<std::uint64_t>(nz))};
-            const std::array<double, 3> part{
-                filled_part(0, cell), filled_part(1, cell), filled_part(2, cell)};
-            const double best =
-                *std::ranges::min_element(part, {}, [](double share) { return std::abs(share - 0.5); });
-            sum += best - part[2];
-        }
-        found = {};
-        layers[static_cast<std::size_t>(layer)] = sum;
+        const auto n = static_cast<std::size_t>(layer);
+        layers[n] = layer_volume(static_cast<int>(layer), std::move(ends[n]));
     });
     double cells = 0.0;
     for (const double layer : layers) {

@@ -91,6 +91,14 @@ public:
 private:
     void fill(const Stock& stock, int k);
     [[nodiscard]] double filled_part(int k, const std::array<int, 3>& cell) const;
+    /// Cells of a layer across X, by `layer_key`; a cell may be there twice.
+    using LayerCells = std::vector<std::uint64_t>;
+    [[nodiscard]] int cell_at(int axis, float at) const;
+    [[nodiscard]] std::uint64_t layer_key(int y, int z) const;
+    [[nodiscard]] std::vector<LayerCells> ends_along_x() const;
+    void add_ends_across_x(int x, LayerCells& ends) const;
+    [[nodiscard]] double length_along_z(int x) const;
+    [[nodiscard]] double layer_volume(int x, LayerCells ends) const;
 
     Box3 box_;
     FieldSize size_;

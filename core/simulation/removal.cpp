@@ -104,10 +104,15 @@ CuttingBody::CuttingBody(const toolpath::Profile& profile)
     : body(profile.shape()), core(inset(profile.shape(), contact_depth)) {}
 
 double step_count(const CuttingBody& cutter, const geometry::ToolPose& from, const geometry::ToolPose& to) {
-    const double longest = 0.5 * cutter.body.shape().radius; // longer steps reach too many tiles
+    const toolpath::ProfileShape& shape = cutter.body.shape();
+    const Vec3 way = to.tip - from.tip;
+    const double longest = 0.5 * shape.radius; // longer steps reach too many tiles
+    constexpr double least = 1e-3;             // mm
+    const double highest = std::max(0.5 * (shape.top - shape.bottom), least); // so that no line is passed
     return std::max({1.0,
                      std::ceil(angle_between(from.axis, to.axis) / largest_turn),
-                     std::ceil((to.tip - from.tip).norm() / longest)});
+                     std::ceil(way.norm() / longest),
+                     std::ceil(std::abs(way.dot(from.axis)) / highest)});
 }
 
 void divide(const CuttingBody& cutter,

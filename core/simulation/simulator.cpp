@@ -4,6 +4,7 @@
 #include "core/kinematics/forward.h"
 #include "core/simulation/internal/keyframes.h"
 #include "core/simulation/internal/program_state.h"
+#include "core/simulation/internal/stretches.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,9 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -50,12 +53,12 @@ public:
             if (tool.body) {
                 body.emplace(*tool.body);
             }
-            Above& above = above_.emplace_back();
-            if (tool.shank) {
-                above.shank.emplace(*tool.shank);
+            AboveCutter& above = above_.emplace_back();
+            if (tool.body && tool.shank) {
+                above.add(*tool.body, ToolPart::shank, *tool.shank);
             }
-            if (tool.holder) {
-                above.holder.emplace(*tool.holder);
+            if (tool.body && tool.holder) {
+                above.add(*tool.body, ToolPart::holder, *tool.holder);
             }
         }
         states_.emplace(0, state_);
@@ -228,7 +231,7 @@ private:
             return;
         }
         const CuttingBody& body = *bodies_[state_.next_tool - 1];
-        const Above& above = above_[state_.next_tool - 1];
+        const AboveCutter& above = above_[state_.next_tool - 1];
         const auto& own = input_.tools[state_.next_tool - 1].machine;
         const kinematics::StraightForward way(
             own ? *own : input_.machine, program::position_before(input_.program, n), block.target);
@@ -244,17 +247,55 @@ private:
         ToolPose last = way.at(0.0);
         for (int count = 1; count <= static_cast<int>(parts); ++count) {
             const ToolPose next = way.at(count / parts);
-            add(body, last, next, {.move = n, .contact_counts = rapid});
-            for (const ToolPart part : {ToolPart::shank, ToolPart::holder}) {
-                const auto& other = part == ToolPart::shank ? above.shank : above.holder;
-                if (other) {
-                    add(*other, last, next, {.move = n, .contact_counts = true, .part = part});
+            const CutStep kind{.cutter = &body, .move = n, .contact_counts = rapid};
+            follow_part(kind, above, {last, next}, [&] {
+                if (steps_.size() >= steps_at_a_time) {
+                    flush(progress, done); // one move may be longer than the memory
                 }
-            }
+            });
             last = next;
-            if (steps_.size() >= steps_at_a_time) {
-                flush(progress, done); // one move may be longer than the memory
+        }
+    }
+
+    /// A straight part of a move. Where shank or holder can reach the stock, they come before the cutter in
+    /// each stretch of it. `kind`: what the steps of the cutter have in common; `added` is called now and
+    /// then.
+    void follow_part(const CutStep& kind,
+                     const AboveCutter& above,
+                     const StraightPart& way,
+                     const std::function<void()>& added) {
+        const std::optional<PartRange> near = above.range_near(field_->box(), way);
+        if (!near) {
+            add(*kind.cutter, way.from, way.to, kind);
+            added();
+            return;
+        }
+        if (near->first > 0.0) {
+            add(*kind.cutter, way.from, way.at(near->first), kind);
+        }
+        const StraightPart inner{way.at(near->first), way.at(near->last)};
+        const double count = above.stretch_count(*kind.cutter, inner);
+        expect_few(count, kind.move);
+        ToolPose last = inner.from;
+        for (int n = 1; n <= static_cast<int>(count); ++n) {
+            const ToolPose next = inner.at(n / count);
+            for (const auto& [part, body] : above.bodies()) {
+                add(body, last, next, {.move = kind.move, .contact_counts = true, .part = part});
             }
+            add(*kind.cutter, last, next, kind);
+            added();
+            last = next;
+        }
+        if (near->last < 1.0) {
+            add(*kind.cutter, inner.to, way.to, kind);
+        }
+        added();
+    }
+
+    void expect_few(double steps, std::int32_t move) const {
+        if (!(steps <= 0.99 * most_steps_per_move)) {
+            throw at_line(
+                block_of(move), "the move is too long for so small a tool", "check the tool's diameter");
         }
     }
 
@@ -262,38 +303,16 @@ private:
     void add(const CuttingBody& body, const ToolPose& from, const ToolPose& to, const CutStep& kind) {
         const toolpath::ProfileShape& shape = body.body.shape();
         const double reach = std::max(std::abs(shape.top), std::abs(shape.bottom)) + shape.radius;
-        const Box3& box = field_->box();
-        double first = 0.0, last = 1.0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double way = to.tip[axis] - from.tip[axis];
-            const double low = box.min()[axis] - reach - from.tip[axis];
-            const double high = box.max()[axis] + reach - from.tip[axis];
-            if (std::abs(way) > 0.0) {
-                first = std::max(first, std::min(low / way, high / way));
-                last = std::min(last, std::max(low / way, high / way));
-            } else if (low > 0.0 || high < 0.0) {
-                return;
-            }
-        }
-        if (!(first < last) && (to.tip - from.tip).norm() > 0.0) {
+        const std::optional<PartRange> range =
+            range_near(field_->box(), Box3(Vec3::Constant(-reach), Vec3::Constant(reach)), from.tip, to.tip);
+        if (!range) {
             return;
         }
-        const auto at = [&](double f) {
-            return ToolPose{from.tip + f * (to.tip - from.tip),
-                            Vec3(from.axis + f * (to.axis - from.axis)).normalized()};
-        };
-        // A part of a move turns so little that the chord of its axis is even.
-        if (step_count(body, from, to) * (last - first) > 0.99 * most_steps_per_move) {
-            throw at_line(
-                block_of(kind.move), "the move is too long for so small a tool", "check the tool's diameter");
-        }
+        const auto [first, last] = *range;
+        const StraightPart way{from, to};
+        expect_few(step_count(body, from, to) * (last - first), kind.move);
         const std::size_t known = steps_.size();
-        divide(body,
-               first > 0.0 ? at(first) : from,
-               last < 1.0 ? at(last) : to,
-               kind.move,
-               kind.contact_counts,
-               steps_);
+        divide(body, way.at(first), way.at(last), kind.move, kind.contact_counts, steps_);
         for (std::size_t k = known; k < steps_.size(); ++k) {
             steps_[k].part = kind.part;
         }
@@ -353,18 +372,13 @@ private:
         }
     }
 
-    /// What of a tool does not cut.
-    struct Above {
-        std::optional<CuttingBody> shank, holder;
-    };
-
     const SimulationInput& input_;
     bool rewinds_;
     std::unique_ptr<DexelField> field_;
     double uncut_; // volume of the field, mm^3
     std::unique_ptr<Removal> removal_;
     std::deque<std::optional<CuttingBody>> bodies_; // steps point to them
-    std::deque<Above> above_;
+    std::deque<AboveCutter> above_;
     ProgramState state_;                 // before block_
     std::map<int, ProgramState> states_; // before the blocks of the keyframes, and before block 0
     Keyframes keyframes_;
