@@ -319,19 +319,11 @@ TEST(ThesisCommand, TheUniformGridTakesNoStart) {
         return run(more);
     };
     EXPECT_EQ(by({"tracks"}).exit_code, 0);
-<<<<<<< HEAD
-    fs::rename(fs::path(scratch / "o.dat"), fs::path(scratch / "tracks.dat"));
-    const Ended refused = by({"uniform", "--start", scratch / "tracks.dat"});
-    EXPECT_EQ(refused.exit_code, 2);
-    EXPECT_THAT(refused.err, HasSubstr("--start does not apply to --method uniform"));
-    EXPECT_FALSE(fs::exists(fs::path(scratch / "o.dat")));
-=======
     std::filesystem::rename(scratch / "o.dat", scratch / "tracks.dat");
     const Ended refused = by({"uniform", "--start", scratch / "tracks.dat"});
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_THAT(refused.err, HasSubstr("--start does not apply to --method uniform"));
     EXPECT_FALSE(std::filesystem::exists(scratch / "o.dat"));
->>>>>>> m30
     EXPECT_EQ(by({"chain", "--start", scratch / "tracks.dat"}).exit_code, 0) << "blocks are read back";
 }
 
