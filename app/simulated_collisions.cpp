@@ -36,10 +36,6 @@ ordered_json line_json(int line) {
     return line > 0 ? ordered_json(line) : ordered_json();
 }
 
-bool is_in_stock(const Finding& finding) {
-    return finding.kind == FindingKind::holder_in_stock || finding.kind == FindingKind::shank_in_stock;
-}
-
 std::string_view body_of(const Finding& finding) {
     return finding.kind == FindingKind::holder_in_stock ? "holder" : "shank";
 }
@@ -126,6 +122,10 @@ simulation::CollisionTriangles triangles_of(const geometry::Mesh& mesh) {
 
 } // namespace
 
+bool is_in_stock(const Finding& finding) {
+    return finding.kind == FindingKind::holder_in_stock || finding.kind == FindingKind::shank_in_stock;
+}
+
 FixtureText parse_fixture(const std::string& text) {
     const simulation::StockText parsed = simulation::parse_stock(text);
     if (parsed.stock) {
@@ -151,12 +151,14 @@ void add_part(const std::filesystem::path& file, SimulatedWork& work, const Prog
 void add_faces(const project::SurfaceInput& input, const geometry::Surface& surface, SimulatedWork& work) {
     constexpr int steps = 100;
     simulation::CollisionTriangles others;
-    for (int n = 0; n < surface.patch_count(); ++n) {
-        const geometry::BezierPatch& patch = surface.patches()[static_cast<std::size_t>(n)];
-        const geometry::Trim trim = input.trim(n);
-        const geometry::Mesh mesh = trim.everything() ? geometry::tessellate(patch, steps, steps)
-                                                      : geometry::tessellate(patch, trim, steps, steps).mesh;
-        if (n == input.machined_patch) {
+    const auto parts = surface.parts();
+    for (std::size_t n = 0; n < parts.size(); ++n) {
+        const bool machined = input.face || static_cast<int>(n) == input.machined_patch;
+        const geometry::Trim trim = machined ? input.machined_trim() : input.trim(static_cast<int>(n));
+        const geometry::Mesh mesh = trim.everything()
+                                        ? geometry::tessellate(*parts[n], steps, steps)
+                                        : geometry::tessellate(*parts[n], trim, steps, steps).mesh;
+        if (machined) {
             work.bodies.push_back(simulation::collision_body(
                 work.machine, "part", simulation::BodyRole::cut_faces, triangles_of(mesh), false));
             continue;

@@ -34,6 +34,9 @@ void add_faces(const project::SurfaceInput& input, const geometry::Surface& surf
 /// open fixture, one that looks inwards, and one that lies in the table.
 void take_bodies(const SimulateOptions& options, SimulatedWork& work, const Progress& progress);
 
+/// Of shank or holder.
+[[nodiscard]] bool is_in_stock(const simulation::Finding& finding);
+
 /// Throws Cancelled.
 [[nodiscard]] simulation::CollisionReport collisions_of(const SimulatedWork& work,
                                                         const SimulateOptions& options,

@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/commands/gcode_options.h"
+#include "app/named_tool.h"
 #include "app/origin_choice.h"
 #include "app/simulated_collisions.h"
 #include "app/usage_error.h"
@@ -23,10 +24,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <memory>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 namespace millwright::app {
@@ -71,96 +69,6 @@ private:
     std::vector<ToolChange> changes_;
     std::vector<ToolChange> selections_;
 };
-
-/// A tool that a person named.
-struct NamedTool {
-    std::optional<int> number;
-    toolpath::Profile body;
-    std::string text;
-    std::shared_ptr<const kinematics::MachineModel> machine{}; ///< with its gauge length; null: as it is
-    std::optional<toolpath::Profile> shank{}, holder{};
-};
-
-NamedTool named_tool(const std::string& text, SimulatedWork& work) {
-    simulation::ToolText parsed = simulation::parse_tool(text);
-    if (parsed.body) {
-        if (work.machine.swings_tool()) {
-            work.warnings.push_back(fmt::format(
-                "{}: the head tilts the tool, whose gauge length is taken from the machine file; name a "
-                "tool file for another one",
-                printable(text)));
-        }
-        return {parsed.number, *parsed.body, text};
-    }
-    const project::ToolInput input = project::read_tool(parsed.file);
-    const toolpath::Tool tool = project::tool_of(input);
-    if (!tool.cutter) {
-        throw Error("the tool is a point, which removes nothing", parsed.file, "give it a cutter");
-    }
-    return {parsed.number,
-            *tool.cutter,
-            project::tool_text(input),
-            std::make_shared<const kinematics::MachineModel>(project::machine_with(input, work.machine)),
-            std::nullopt,
-            tool.holder};
-}
-
-template <class Number> std::optional<Number> number_in(std::string_view text) {
-    Number value{};
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = !text.empty() && failure == std::errc{} && end == text.data() + text.size();
-    return whole ? std::optional(value) : std::nullopt;
-}
-
-/// Above its flutes a tool is shank, which does not cut.
-void take_flutes(const std::string& text, std::vector<NamedTool>& tools) {
-    const std::size_t equals = text.find('=');
-    const std::string length_text = equals == std::string::npos ? text : text.substr(equals + 1);
-    const auto length = number_in<double>(length_text);
-    const auto number =
-        equals == std::string::npos ? std::optional<int>() : number_in<int>(text.substr(0, equals));
-    if (!length || !(*length > 0.0 && *length < 1e6) || (equals != std::string::npos && !number)) {
-        throw UsageError(fmt::format("\"{}\" is no flute length", printable(text)),
-                         {},
-                         "write --flutes 20, or --flutes 3=20 for tool 3, in mm");
-    }
-    bool found = false;
-    for (NamedTool& tool : tools) {
-        if (number && tool.number != number) {
-            continue;
-        }
-        found = true;
-        toolpath::ProfileShape cutting = tool.body.shape();
-        if (*length >= cutting.top) {
-            continue;
-        }
-        if (*length < tool.body.flank_end() || *length <= cutting.bottom) {
-            throw UsageError(
-                fmt::format("flutes of {:g} mm end below the flank of the cutter, which ends at {:g} mm",
-                            *length,
-                            tool.body.flank_end()));
-        }
-        tool.shank = toolpath::Profile(
-            {.flat = cutting.radius, .radius = cutting.radius, .bottom = *length, .top = cutting.top});
-        cutting.top = *length;
-        tool.body = toolpath::Profile(cutting);
-    }
-    if (!found) {
-        throw UsageError(fmt::format("--flutes {}: no tool of that number is named", printable(text)));
-    }
-}
-
-void expect_different_numbers(const std::vector<NamedTool>& tools) {
-    for (std::size_t n = 1; n < tools.size(); ++n) {
-        const auto end = tools.begin() + static_cast<std::ptrdiff_t>(n);
-        if (tools[n].number && std::any_of(tools.begin(), end, [&](const NamedTool& earlier) {
-                return earlier.number == tools[n].number;
-            })) {
-            throw UsageError(
-                fmt::format("tool {} is named twice", *tools[n].number), {}, "name each tool once");
-        }
-    }
-}
 
 /// The tool for T `number`: the one of that number, or the only one if it has none.
 const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool only_call) {
@@ -301,12 +209,10 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     work.machine_file = machine_file;
     std::vector<NamedTool> tools;
     for (const std::string& text : options.tools) {
-        tools.push_back(named_tool(text, work));
+        tools.push_back(named_tool(text, work.machine, work.warnings));
     }
     expect_different_numbers(tools);
-    for (const std::string& text : options.flutes) {
-        take_flutes(text, tools);
-    }
+    take_flutes(options.flutes, tools);
     take_stock(options.stock, work, progress);
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
@@ -415,9 +321,7 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     }
     if (!options.flutes.empty()) {
         std::vector<NamedTool> tools{{std::nullopt, *tool.cutter, {}}};
-        for (const std::string& text : options.flutes) {
-            take_flutes(text, tools);
-        }
+        take_flutes(options.flutes, tools);
         work.tools.front().body = tools.front().body;
         work.tools.front().shank = tools.front().shank;
     }

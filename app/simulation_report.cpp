@@ -201,7 +201,8 @@ std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation
                         counted(std::ranges::count_if(found.findings, is_off), "move cuts", "moves cut")),
             {}}));
     }
-    if (found.cutting_moves == 0) {
+    const bool touched = std::ranges::any_of(found.findings, is_in_stock);
+    if (found.cutting_moves == 0 && !touched) {
         warnings.push_back(to_text(Diagnostic{
             {work.file, 0, 0, -1}, "no move meets the stock: check its place and the work offset", {}}));
     }

@@ -186,26 +186,23 @@ int simulate(const SimulateOptions& options) {
     return free && !gouged && complete ? 0 : 1;
 }
 
-} // namespace
-
-void add_simulate_command(CLI::App& app, Command& chosen) {
-    const auto options = std::make_shared<SimulateOptions>();
-    CLI::App& command = *app.add_subcommand(
-        "simulate",
-        "Simulate material removal: remaining stock, gouges, collisions, and rapid moves through material");
-    command.add_option("FILE", options->file, "Project, or G-code file")->required();
-    command.add_option("--machine", options->machine, "Shipped machine or machine file, for a G-code file")
+void add_work_options(CLI::App& command, SimulateOptions& options) {
+    command.add_option("FILE", options.file, "Project, or G-code file")->required();
+    command.add_option("--machine", options.machine, "Shipped machine or machine file, for a G-code file")
         ->type_name("NAME|FILE");
     command
         .add_option("--stock",
-                    options->stock,
+                    options.stock,
                     "box:LX,LY,LZ[@X,Y,Z], cylinder:D,L[,x|y|z][@X,Y,Z], tube:D,BORE,L[,x|y|z][@X,Y,Z] or "
                     "FILE.stl[@X,Y,Z] (default for a project: the bounding box of its surface plus 2 mm)")
         ->type_name("SPEC");
+}
+
+void add_tool_options(CLI::App& command, SimulateOptions& options) {
     command
         .add_option(
             "--tool",
-            options->tools,
+            options.tools,
             "flat:D, ball:D, bull:D:R, v:ANGLE:D[:TIP|:rR], drill:D[:ANGLE], each with :lLENGTH, or a "
             "tool file; N=SPEC sets the tool of T N (repeatable)")
         ->type_name("[N=]SPEC")
@@ -213,53 +210,72 @@ void add_simulate_command(CLI::App& app, Command& chosen) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         .add_option("--flutes",
-                    options->flutes,
+                    options.flutes,
                     "Cutting length of the tool, mm; above it is shank, which does not cut (repeatable)")
         ->type_name("[N=]MM")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         .add_option(
-            "--fixture", options->fixtures, "Mesh of a fixture on the table, mm, moved by X,Y,Z (repeatable)")
+            "--fixture", options.fixtures, "Mesh of a fixture on the table, mm, moved by X,Y,Z (repeatable)")
         ->type_name("FILE[@X,Y,Z]")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
         .add_option("--clearance",
-                    options->clearance,
+                    options.clearance,
                     "Bodies that come nearer than this without touching are listed as near misses, mm")
         ->type_name("MM")
         ->check(not_below_zero());
+}
+
+void add_field_options(CLI::App& command, SimulateOptions& options) {
     command
         .add_option("--resolution",
-                    options->resolution,
+                    options.resolution,
                     "Spacing of the dexel lines, mm (default: longest stock edge / 400)")
         ->type_name("MM")
         ->check(above_zero());
     command
         .add_option("--part",
-                    options->part,
+                    options.part,
                     "Mesh of the part to compare with, mm (default for a project: the machined face)")
         ->type_name("FILE");
-    command.add_option("--tolerance", options->tolerance, "Tolerance of the comparison, mm")
+    command.add_option("--tolerance", options.tolerance, "Tolerance of the comparison, mm")
         ->type_name("MM")
         ->check(not_below_zero());
-    command.add_option("--memory", options->memory_mb, "Memory limit of the dexel field, MB")
+    command.add_option("--memory", options.memory_mb, "Memory limit of the dexel field, MB")
         ->type_name("MB")
         ->check(above_zero());
-    add_origin_option(command, options->origin);
-    command.add_option("--dialect", options->dialect, "G-code dialect")
+}
+
+void add_reading_options(CLI::App& command, SimulateOptions& options) {
+    add_origin_option(command, options.origin);
+    command.add_option("--dialect", options.dialect, "G-code dialect")
         ->check(CLI::IsMember({"linuxcnc", "grbl"}))
         ->default_str("linuxcnc");
     command
         .add_option("--subroutines",
-                    options->subroutines,
+                    options.subroutines,
                     "Folder of subroutine files, searched after the program's own")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory)
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_flag("--block-delete", options->block_delete, "Skip lines that begin with / (block delete)");
+    command.add_flag("--block-delete", options.block_delete, "Skip lines that begin with / (block delete)");
+}
+
+} // namespace
+
+void add_simulate_command(CLI::App& app, Command& chosen) {
+    const auto options = std::make_shared<SimulateOptions>();
+    CLI::App& command = *app.add_subcommand(
+        "simulate",
+        "Simulate material removal: remaining stock, gouges, collisions, and rapid moves through material");
+    add_work_options(command, *options);
+    add_tool_options(command, *options);
+    add_field_options(command, *options);
+    add_reading_options(command, *options);
     command
         .add_option("--out",
                     options->out,
