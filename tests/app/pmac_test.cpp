@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 
 namespace millwright::test {
@@ -159,6 +160,72 @@ TEST_F(Pmac, MotorsKeepNoPowerThatNobodyAskedToKeep) {
     EXPECT_TRUE(has_power()); // so does motion with the power that was there
     EXPECT_EQ(run({"pmac", "#1K", "--port", port}).exit_code, 0);
     EXPECT_FALSE(has_power());
+}
+
+// The lines behind the refused OPEN went into the buffer that it had opened.
+TEST_F(Pmac, AFileWhoseBufferIsRefusedSetsWhatStandsBehindIt) {
+    Emulator emulator(port, {}, "pmac");
+    const std::string ini = (scratch / "demo.ini").string();
+    write_content(ini, "OPEN PLC 5 WHILE (1\nCLEAR\nP1=2\nCLOSE\nI130=3000\nI131=900\n");
+    const Ended ended = run({"pmac", "--load", ini, "--port", port});
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_THAT(ended.err, HasSubstr("demo.ini:1: 'OPEN PLC 5 WHILE (1' is rejected"));
+    EXPECT_THAT(ended.err, HasSubstr("demo.ini:3: 'P1=2' is not executed"));
+    const Ended set = run({"pmac", "I130", "I131", "P1", "LIST PLC 5", "--port", port});
+    EXPECT_EQ(set.out, "3000\n900\n0\n");
+}
+
+// F2: a PLC program moved a motor without --power, and again behind "The motors are disabled".
+TEST_F(Pmac, APlcProgramNeedsPowerThatAPersonGaveAndEndsWithTheCommand) {
+    Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
+    const auto text_of = [&](const std::string& question) {
+        return run({"pmac", question, "--port", port}).out;
+    };
+    ASSERT_EQ(run({"pmac", "--load", "assets/samples/pmac-arm.ini", "I122=1", "--port", port}).exit_code, 0);
+    ASSERT_EQ(run({"pmac", "OPEN PLC 6 CLEAR CMD\"#1J+\" CLOSE", "--port", port}).exit_code, 0);
+    const Ended refused = run({"pmac", "ENABLE PLC 6", "--port", port});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err,
+                HasSubstr("'ENABLE PLC 6' runs a program of the card, which could enable motors"));
+    EXPECT_THAT(refused.err, HasSubstr("--power"));
+    EXPECT_THAT(text_of("#1P"), testing::ContainsRegex("^-?0(\\.[0-9])?\n"));
+    write_content(scratch / "plc.ini", "P5=1\nENABLE PLC 6\n");
+    const Ended file = run({"pmac", "--load", (scratch / "plc.ini").string(), "--port", port});
+    EXPECT_EQ(file.exit_code, 1);
+    EXPECT_THAT(file.err, HasSubstr("--power"));
+    Program moving({"pmac", "ENABLE PLC 6", "--power", "--port", port});
+    moving.wait_for_error_text("Ctrl+C stops them");
+    moving.send(SIGINT);
+    EXPECT_THAT(moving.end().err, HasSubstr("The motors are disabled"));
+    const std::string stopped = text_of("#1P");
+    EXPECT_GT(std::stod(stopped), 10.0);
+    EXPECT_EQ(text_of("#1P"), stopped);
+}
+
+// They were refused as commands to moving motors.
+TEST_F(Pmac, StopsAndQuestionsPassWhileSomethingElseMovesTheMotors) {
+    Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
+    ASSERT_EQ(run({"pmac",
+                   "--load",
+                   "assets/samples/pmac-arm.ini",
+                   "#1J/",
+                   "I122=0.05",
+                   "--power",
+                   "--keep-power",
+                   "--port",
+                   port})
+                  .exit_code,
+              0);
+    for (const std::string stop : {"A", "#1J/", "#1K"}) {
+        std::ofstream(port) << "#1J/\r#1J+\r" << std::flush;
+        EXPECT_THAT(run({"pmac", "#1P", "--port", port}).err, testing::Not(HasSubstr("not possible")))
+            << stop;
+        const Ended ended = run({"pmac", stop, "--port", port});
+        EXPECT_EQ(ended.exit_code, 0) << stop << ended.err;
+        const std::string at = run({"pmac", "#1P", "--port", port}).out;
+        EXPECT_GT(std::stod(at), 1.0) << stop;
+        EXPECT_NEAR(std::stod(run({"pmac", "#1P", "--port", port}).out), std::stod(at), 1.0) << stop;
+    }
 }
 
 // F1.
