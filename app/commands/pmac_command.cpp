@@ -118,7 +118,7 @@ public:
 
     bool say(const std::string& command) {
         const drivers::CommandAnswer answer = answer_to(sent(command));
-        const bool is_kept = is_done(answer) && !driver_->kept_lines().empty();
+        const bool is_kept = is_done(answer) && answer.text.ends_with("kept until CLOSE");
         if (!is_kept && answer.text != driver_->status().message) { // which is told as the error
             print(answer, answer.text);
         }

@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "core/pmac/driver/guard_rules.h"
 #include "core/pmac/driver/internal/buffer_words.h"
+#include "core/pmac/driver/internal/command_kind.h"
 
 #include <fmt/format.h>
 
@@ -138,6 +139,15 @@ private:
         if (!program_ && !open_.empty() && tight.starts_with("OPEN")) {
             throw Error(Diagnostic{
                 {file_, line, 1}, internal::second_open_message(text), internal::second_open_hint(open_)});
+        }
+        if (const bool stored = program_ || (!open_.empty() && tight != "CLOSE");
+            stored && internal::acts_at_once(tight)) {
+            throw Error(
+                Diagnostic{{file_, line, 1},
+                           fmt::format("'{}' is no line of a program: between OPEN and CLOSE the card "
+                                       "would act on it at once",
+                                       text),
+                           "a PLC program sends commands by CMD\"...\""});
         }
         if (!sets_something(text, tight)) {
             ++result_.left_out;

@@ -97,9 +97,10 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
     person.press_key(render::Key::f9);
     wait_for_check();
     person.frames(2);
-    for (const char* const row : {"program", "machine", "position", "X", "Y", "spindle", "tool"}) {
+    for (const char* const row : {"program", "machine", "position", "X", "Y", "modes", "spindle", "tool"}) {
         EXPECT_TRUE(person.sees(std::string("dialogs/start/") + row)) << row;
     }
+    EXPECT_THAT(person.desktop().ui().cut_texts(), testing::IsEmpty());
     EXPECT_FALSE(person.sees("dialogs/start/Z"));    // it does not move
     EXPECT_TRUE(person.sees("dialogs/start/doubt")); // this Grbl was switched on, and nobody homed it
     const auto check = person.app().look().start_check;

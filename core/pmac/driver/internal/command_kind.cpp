@@ -152,6 +152,17 @@ bool closes_buffer(std::string_view line) {
     return is(line, close);
 }
 
+bool acts_at_once(std::string_view line) {
+    if (line.find("->") != std::string_view::npos) {
+        return false;
+    }
+    static const std::regex whole(R"( *([#&].*|H|HM|HOME|K|A|R|S|Q|[\\/]|[$]+[*]*|B *[0-9.]+ *[RS]?) *)",
+                                  std::regex::icase);
+    static const std::regex jog("(^|[^A-Z])J *[-+/=:^]", std::regex::icase);
+    const std::string_view before_text = line.substr(0, line.find('"'));
+    return is(line, whole) || std::regex_search(before_text.begin(), before_text.end(), jog);
+}
+
 bool begins_nothing(std::string_view line) {
     static const std::regex quiet(
         " *(CLOSE|CLS|CLEAR|CLR|DEL(ETE)? .*|UNDEF(INE)?.*|(& *[0-9]+ *)?#[0-9]+ *->.*|"

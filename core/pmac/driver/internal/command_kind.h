@@ -72,6 +72,10 @@ struct PowerChange {
 [[nodiscard]] bool opens_buffer(std::string_view line);
 [[nodiscard]] bool closes_buffer(std::string_view line);
 
+/// Whether `line` is one for the card itself, which acts on it at once also between OPEN and CLOSE: a jog,
+/// a stop, the start of a program, or whatever is addressed by # or &. Definitions (->) are not.
+[[nodiscard]] bool acts_at_once(std::string_view line);
+
 /// Whether `line` surely begins no motion: it asks, sets, addresses, defines, or ends a buffer.
 [[nodiscard]] bool begins_nothing(std::string_view line);
 

@@ -273,12 +273,21 @@ int PmacSession::load(const std::vector<std::string>& lines) {
     return command(lines, true);
 }
 
-/// A buffer is closed before the next one is opened, as the card has it.
+/// A buffer is closed before the next one is opened, as the card has it, and holds lines of a program: others
+/// would act at once, with the guard disarmed.
 void PmacSession::check_open(const std::vector<std::string>& lines) const {
     std::string open = typed_.kept().empty() ? "" : typed_.kept().front();
     for (const std::string& line : lines) {
         if (opens_buffer(line) && !open.empty()) {
             throw Error(second_open_message(line), {}, second_open_hint(open));
+        }
+        if (!open.empty() && !closes_buffer(line) && acts_at_once(line)) {
+            throw Error(
+                fmt::format("'{}' is no line of a program: between OPEN and CLOSE the card would act on it "
+                            "at once",
+                            line),
+                {},
+                "send it after CLOSE; a PLC program sends commands by CMD\"...\"");
         }
         open = opens_buffer(line) ? line : closes_buffer(line) ? "" : open;
     }
@@ -319,6 +328,7 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     check_goals(lines);
     check_buffers(all ? parts : typed_.completed(parts));
     if (stopped_by_command(lines) || brakes_instead(lines)) {
+        typed_.keep({rest, parts.end()});
         return answer_.number;
     }
     check_programs(lines, all);

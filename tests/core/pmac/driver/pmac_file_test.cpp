@@ -61,6 +61,15 @@ TEST(PmacFile, ASecondOpenIsRefusedWithItsPlace) {
     }
 }
 
+TEST(PmacFile, AJogBetweenOpenAndCloseIsRefusedWithItsPlace) {
+    try {
+        (void)read_pmac_file("OPEN PROG 3\nCLEAR\n#1J:700\nCLOSE\n", "a.ini");
+        FAIL() << "it was read";
+    } catch (const Error& error) {
+        EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("a.ini:3:1: '#1J:700' is no line of a program"));
+    }
+}
+
 TEST(PmacFileF1, AByteOrderMarkIsSkipped) {
     const PmacFile file = read_pmac_file("\xEF\xBB\xBFI130=5\nI131=6\n", "a.ini");
     ASSERT_EQ(file.lines.size(), 2u);

@@ -90,6 +90,35 @@ TEST(PmacTypedLines, ASecondOpenIsRefusedAndTheFirstBufferIsKept) {
     EXPECT_THAT(reason({"OPEN PLC 6", "CLEAR", "OPEN PLC 7", "CLOSE"}, true), HasSubstr("ERR007"));
 }
 
+// The card moved motors without a word: the rule of power looks at no line that is stored.
+TEST(PmacTypedLines, AJogBetweenOpenAndCloseIsRefused) {
+    PmacWire wire;
+    for (const char* line : {"#1J:700", "#1HM", "J+", " j = 5", "A", "K", "B1R", "&1R", "HM"}) {
+        for (const bool file : {false, true}) {
+            EXPECT_THAT(refusal([&] {
+                            (void)wire.session.command({"OPEN PROG 3", "CLEAR", line, "CLOSE"}, file);
+                        }),
+                        HasSubstr("would act on it at once"))
+                << line;
+        }
+    }
+    EXPECT_THAT(refusal([&] { (void)wire.session.command({"OPEN PROG 3 CLEAR #1J:700 CLOSE"}, false); }),
+                HasSubstr("#1J:700"));
+    for (const char* line : {"A10 B5", "HOME1", "X10 Y(P1)", "SPLINE1", "K2 J3", "CMD\"#1J/\"", "S500"}) {
+        EXPECT_NO_THROW((void)wire.session.command({"OPEN PROG 3", "CLEAR", line}, false)) << line;
+        EXPECT_NO_THROW((void)wire.session.command({"CLOSE"}, false)) << line;
+        EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+    }
+}
+
+// What stood behind the stop was dropped, and the lines that followed were executed.
+TEST(PmacTypedLines, AnOpenBehindAStopIsKept) {
+    PmacWire wire;
+    (void)wire.session.command({"A OPEN PROG 1 CLEAR"}, false);
+    EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
+    EXPECT_EQ(wire.session.kept_lines(), (std::vector<std::string>{"OPEN PROG 1", "CLEAR"}));
+}
+
 // It waited for a CLOSE that had come, or P1=3 was executed.
 TEST(PmacTypedLines, ABufferOnOneLineIsReadAsTheCardReadsIt) {
     PmacWire wire;
