@@ -2,6 +2,8 @@
 
 #include "ui/render/color_map.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
