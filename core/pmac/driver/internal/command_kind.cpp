@@ -153,7 +153,7 @@ bool closes_buffer(std::string_view line) {
 }
 
 bool acts_at_once(std::string_view line) {
-    if (line.find("->") != std::string_view::npos) {
+    if (line.find("->") != std::string_view::npos || only_asks(line)) {
         return false;
     }
     static const std::regex whole(R"( *([#&].*|H|HM|HOME|K|A|R|S|Q|[\\/]|[$]+[*]*|B *[0-9.]+ *[RS]?) *)",

@@ -73,7 +73,8 @@ struct PowerChange {
 [[nodiscard]] bool closes_buffer(std::string_view line);
 
 /// Whether `line` is one for the card itself, which acts on it at once also between OPEN and CLOSE: a jog,
-/// a stop, the start of a program, or whatever is addressed by # or &. Definitions (->) are not.
+/// a stop, the start of a program, or whatever is addressed by # or &. Definitions (->) and questions are
+/// not.
 [[nodiscard]] bool acts_at_once(std::string_view line);
 
 /// Whether `line` surely begins no motion: it asks, sets, addresses, defines, or ends a buffer.

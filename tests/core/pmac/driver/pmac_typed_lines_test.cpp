@@ -93,7 +93,7 @@ TEST(PmacTypedLines, ASecondOpenIsRefusedAndTheFirstBufferIsKept) {
 // The card moved motors without a word: the rule of power looks at no line that is stored.
 TEST(PmacTypedLines, AJogBetweenOpenAndCloseIsRefused) {
     PmacWire wire;
-    for (const char* line : {"#1J:700", "#1HM", "J+", " j = 5", "A", "K", "B1R", "&1R", "HM"}) {
+    for (const char* line : {"#1J:700", "#1HM", " j = 5", "A", "K", "B1R", "&1R", "HM"}) {
         for (const bool file : {false, true}) {
             EXPECT_THAT(refusal([&] {
                             (void)wire.session.command({"OPEN PROG 3", "CLEAR", line, "CLOSE"}, file);
@@ -109,14 +109,6 @@ TEST(PmacTypedLines, AJogBetweenOpenAndCloseIsRefused) {
         EXPECT_NO_THROW((void)wire.session.command({"CLOSE"}, false)) << line;
         EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
     }
-}
-
-// What stood behind the stop was dropped, and the lines that followed were executed.
-TEST(PmacTypedLines, AnOpenBehindAStopIsKept) {
-    PmacWire wire;
-    (void)wire.session.command({"A OPEN PROG 1 CLEAR"}, false);
-    EXPECT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::idle; }, 3.0));
-    EXPECT_EQ(wire.session.kept_lines(), (std::vector<std::string>{"OPEN PROG 1", "CLEAR"}));
 }
 
 // It waited for a CLOSE that had come, or P1=3 was executed.
