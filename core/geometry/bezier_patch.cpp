@@ -1,8 +1,8 @@
 #include "core/geometry/bezier_patch.h"
 
 #include "core/base/error.h"
-#include "core/base/numbers.h"
 #include "core/geometry/internal/homogeneous_point.h"
+#include "core/geometry/internal/net_faults.h"
 #include "core/geometry/internal/projected.h"
 #include "core/geometry/internal/unit_normal.h"
 
@@ -11,27 +11,6 @@
 #include <utility>
 
 namespace millwright::geometry {
-
-namespace {
-
-std::string fault_at(const ControlNet& net, int i, int j) {
-    constexpr double largest_mm = 1e6; // a kilometre; beyond it double precision loses the micrometre
-    const Vec3& p = net.point(i, j);
-    if (!is_finite(p)) {
-        return fmt::format("control point ({},{}) is not finite", i, j);
-    }
-    if (p.cwiseAbs().maxCoeff() > largest_mm) {
-        return fmt::format("control point ({},{}) is more than {} mm from the origin", i, j, largest_mm);
-    }
-    const double w = net.weight(i, j);
-    constexpr double largest_weight = 1e6;
-    if (!(w >= 1.0 / largest_weight && w <= largest_weight)) {
-        return fmt::format("weight ({},{}) = {} is not between 1e-6 and 1e6", i, j, w);
-    }
-    return {};
-}
-
-} // namespace
 
 ControlNet ControlNet::sized(int rows, int columns) {
     expects(rows >= 0 && columns >= 0, "a net has no negative size");
@@ -51,22 +30,7 @@ std::string fault_of(const ControlNet& net) {
                            net.columns,
                            max_degree + 1);
     }
-    const auto count = static_cast<std::size_t>(net.rows) * static_cast<std::size_t>(net.columns);
-    if (net.points.size() != count || net.weights.size() != count) {
-        return fmt::format("a control net of {} x {} does not match {} points and {} weights",
-                           net.rows,
-                           net.columns,
-                           net.points.size(),
-                           net.weights.size());
-    }
-    for (int i = 0; i < net.rows; ++i) {
-        for (int j = 0; j < net.columns; ++j) {
-            if (std::string fault = fault_at(net, i, j); !fault.empty()) {
-                return fault;
-            }
-        }
-    }
-    return {};
+    return fault_of_points(net);
 }
 
 BezierPatch::BezierPatch(ControlNet net) : net_(std::move(net)) {

@@ -4,6 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/geometry/internal/bspline_basis.h"
 #include "core/geometry/internal/homogeneous_point.h"
+#include "core/geometry/internal/net_faults.h"
 #include "core/geometry/internal/projected.h"
 #include "core/geometry/internal/unit_normal.h"
 
@@ -52,21 +53,6 @@ std::string fault_of_knots(const char* name, const std::vector<double>& knots, i
                                name,
                                degree);
         }
-    }
-    return {};
-}
-
-std::string fault_of_point(const BsplineNet& net, int i, int j) {
-    const Vec3& p = net.points[net.index(i, j)];
-    constexpr double largest_mm = 1e6; // as of a patch
-    if (!is_finite(p) || p.cwiseAbs().maxCoeff() > largest_mm) {
-        return fmt::format(
-            "control point ({},{}) is not finite or more than {} mm from the origin", i, j, largest_mm);
-    }
-    const double w = net.weights[net.index(i, j)];
-    constexpr double largest_weight = 1e6;
-    if (!(w >= 1.0 / largest_weight && w <= largest_weight)) {
-        return fmt::format("weight ({},{}) = {} is not between 1e-6 and 1e6", i, j, w);
     }
     return {};
 }
@@ -190,21 +176,7 @@ std::string fault_of(const BsplineNet& net) {
     if (count > most_bspline_points) {
         return fmt::format("more than {} control points", most_bspline_points);
     }
-    if (net.points.size() != count || net.weights.size() != count) {
-        return fmt::format("a control net of {} x {} does not match {} points and {} weights",
-                           net.rows,
-                           net.columns,
-                           net.points.size(),
-                           net.weights.size());
-    }
-    for (int i = 0; i < net.rows; ++i) {
-        for (int j = 0; j < net.columns; ++j) {
-            if (std::string fault = fault_of_point(net, i, j); !fault.empty()) {
-                return fault;
-            }
-        }
-    }
-    return {};
+    return fault_of_points(net);
 }
 
 BsplineNet turned_over(const BsplineNet& net) {

@@ -31,7 +31,7 @@ Vec3 vector_of(const JsonValue& value) {
             items[2].number(-farthest, farthest)};
 }
 
-TaughtPoint point_of(const JsonValue& value) {
+TaughtPoint taught_point_of(const JsonValue& value) {
     value.expect_only({"name", "joints_deg", "straight", "speed_percent"});
     TaughtPoint point;
     point.name = value.at("name").text();
@@ -49,7 +49,7 @@ std::vector<TaughtPoint> points_of(const JsonValue& array) {
     std::vector<TaughtPoint> points;
     std::set<std::string> names;
     for (const JsonValue& item : array.items()) {
-        points.push_back(point_of(item));
+        points.push_back(taught_point_of(item));
         if (const auto faults = faults_of(std::vector{points.back()}); !faults.empty()) {
             item.fail(faults.front());
         }

@@ -51,7 +51,8 @@ TEST_F(ImportCommand, AFaceOfSeveralPatchesIsOneExactSurface) {
     }
     std::string number;
     int patches = 0;
-    for (const nlohmann::json& face : nlohmann::json::parse(listed.out).at("faces")) {
+    const nlohmann::json model = nlohmann::json::parse(listed.out);
+    for (const nlohmann::json& face : model.at("faces")) {
         const int count = face.at("patches").at(0).get<int>() * face.at("patches").at(1).get<int>();
         if (count > patches) {
             patches = count;

@@ -347,6 +347,15 @@ TEST_F(Pmac, ChecksThatJogsAndProgramsGoTheSameWay) {
     EXPECT_THAT(other.out, HasSubstr("defined by -222 counts"));
 }
 
+// OPEN behind the stop was dropped, and the lines of its buffer were executed.
+TEST_F(Pmac, AnOpenBehindAStopStillOpensItsBuffer) {
+    Emulator emulator(port, {"--arm"}, "pmac");
+    const Ended set = run({"pmac", "P5=0", "A OPEN PROG 1 CLEAR", "P5=3", "CLOSE", "P5", "--port", port});
+    EXPECT_EQ(set.exit_code, 0) << set.err;
+    EXPECT_THAT(set.out, testing::EndsWith("\n0\n"));
+    EXPECT_THAT(run({"pmac", "LIST PROG 1", "--port", port}).out, HasSubstr("P5=3"));
+}
+
 TEST_F(Pmac, FindsTheOffsetOfAMotorAndItsAnswerToAStep) {
     Emulator emulator(port, {"--arm"}, "pmac");
     ASSERT_EQ(run({"pmac", "I900=1", "--port", port}).exit_code, 0); // as its encoder is wired

@@ -85,38 +85,39 @@ TEST(SimulateCommand, EndsWithCodeOneForARapidThroughMaterial) {
 }
 
 /// A box as an STL file.
-fs::path
-box_file(const ScratchFolder& scratch, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-    const fs::path file = scratch / "clamp.stl";
+fs::path box_file(const fs::path& file, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    constexpr std::array<std::array<unsigned, 3>, 12> triangles{{{0, 2, 3},
+                                                                 {0, 3, 1},
+                                                                 {4, 5, 7},
+                                                                 {4, 7, 6},
+                                                                 {0, 1, 5},
+                                                                 {0, 5, 4},
+                                                                 {2, 6, 7},
+                                                                 {2, 7, 3},
+                                                                 {0, 4, 6},
+                                                                 {0, 6, 2},
+                                                                 {1, 3, 7},
+                                                                 {1, 7, 5}}};
     std::ofstream out(file);
-    out << "solid clamp\n";
-    constexpr std::array<std::array<int, 3>, 12> triangles{{{0, 2, 3},
-                                                            {0, 3, 1},
-                                                            {4, 5, 7},
-                                                            {4, 7, 6},
-                                                            {0, 1, 5},
-                                                            {0, 5, 4},
-                                                            {2, 6, 7},
-                                                            {2, 7, 3},
-                                                            {0, 4, 6},
-                                                            {0, 6, 2},
-                                                            {1, 3, 7},
-                                                            {1, 7, 5}}};
+    out << "solid box\n";
     for (const auto& triangle : triangles) {
         out << "facet normal 0 0 0\nouter loop\n";
-        for (const int n : triangle) {
-            out << "vertex " << ((n & 1) != 0 ? high : low)[0] << ' ' << ((n & 2) != 0 ? high : low)[1] << ' '
-                << ((n & 4) != 0 ? high : low)[2] << '\n';
+        for (const unsigned corner : triangle) {
+            out << "vertex";
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                out << ' ' << ((corner >> axis & 1U) != 0 ? high : low)[axis];
+            }
+            out << '\n';
         }
         out << "endloop\nendfacet\n";
     }
-    out << "endsolid clamp\n";
+    out << "endsolid box\n";
     return file;
 }
 
 TEST(SimulateCommand, NamesACollisionWithAFixtureAndItsLine) {
     const ScratchFolder scratch;
-    const fs::path clamp = box_file(scratch, {40, 15, -5}, {50, 25, 3});
+    const fs::path clamp = box_file(scratch / "clamp.stl", {40, 15, -5}, {50, 25, 3});
     const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
     const Ended ended = simulate(
         program, scratch / "out", {"--tool", "flat:6", "--fixture", clamp.string(), "--flutes", "20"});
@@ -151,7 +152,7 @@ TEST(SimulateCommand, ChecksTheHolderOfAToolFile) {
 TEST(SimulateCommand, RefusesFixturesThatAreOpenOrInTheTable) {
     const ScratchFolder scratch;
     const fs::path program = program_in(scratch, std::string(slot_program) + "M2\n");
-    const fs::path clamp = box_file(scratch, {40, 15, -5}, {50, 25, 3});
+    const fs::path clamp = box_file(scratch / "clamp.stl", {40, 15, -5}, {50, 25, 3});
     const Ended sunk =
         simulate(program, scratch / "out", {"--tool", "flat:6", "--fixture", clamp.string() + "@0,0,-67"});
     EXPECT_EQ(sunk.exit_code, 1);
@@ -313,44 +314,13 @@ TEST(SimulateCommand, CutsAClosedMeshOfAFile) {
                 12.0); // edges of the mesh are broken
 }
 
-/// A box as an STL file.
-fs::path box_mesh(const fs::path& file, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-    constexpr std::array<std::array<unsigned, 3>, 12> triangles{{{0, 2, 3},
-                                                                 {0, 3, 1},
-                                                                 {4, 5, 7},
-                                                                 {4, 7, 6},
-                                                                 {0, 1, 5},
-                                                                 {0, 5, 4},
-                                                                 {2, 6, 7},
-                                                                 {2, 7, 3},
-                                                                 {0, 4, 6},
-                                                                 {0, 6, 2},
-                                                                 {1, 3, 7},
-                                                                 {1, 7, 5}}};
-    std::ofstream out(file);
-    out << "solid box\n";
-    for (const auto& triangle : triangles) {
-        out << "facet normal 0 0 0\nouter loop\n";
-        for (const unsigned corner : triangle) {
-            out << "vertex";
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                out << ' ' << ((corner >> axis & 1U) != 0 ? high : low)[axis];
-            }
-            out << '\n';
-        }
-        out << "endloop\nendfacet\n";
-    }
-    out << "endsolid box\n";
-    return file;
-}
-
 TEST(SimulateCommand, APartThatIsMilledAwayIsGouged) {
     const ScratchFolder scratch;
     std::string text = "G21 G90 G17\nT1 M6\nM3 S8000\nG0 X-10 Y-10 Z5\nG1 Z-12 F600\n";
     for (int row = 0; row <= 12; ++row) {
         text += "G1 Y" + std::to_string(5 * row - 10) + "\nG1 X" + (row % 2 == 0 ? "70" : "-10") + "\n";
     }
-    const fs::path part = box_mesh(scratch / "wanted.stl", {0, 0, -10}, {60, 40, -2});
+    const fs::path part = box_file(scratch / "wanted.stl", {0, 0, -10}, {60, 40, -2});
     const Ended ended = simulate(
         program_in(scratch, text + "G0 Z5\nM2\n"), scratch / "out", {"--tool", "flat:6", "--part", part});
     EXPECT_EQ(ended.exit_code, 1) << ended.out;

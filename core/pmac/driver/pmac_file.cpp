@@ -143,11 +143,7 @@ private:
         if (const bool stored = program_ || (!open_.empty() && tight != "CLOSE");
             stored && internal::acts_at_once(tight)) {
             throw Error(
-                Diagnostic{{file_, line, 1},
-                           fmt::format("'{}' is no line of a program: between OPEN and CLOSE the card "
-                                       "would act on it at once",
-                                       text),
-                           "a PLC program sends commands by CMD\"...\""});
+                Diagnostic{{file_, line, 1}, internal::at_once_message(text), internal::at_once_hint});
         }
         if (!sets_something(text, tight)) {
             ++result_.left_out;

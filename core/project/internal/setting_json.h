@@ -22,6 +22,16 @@ using Json = nlohmann::ordered_json;
     return Json::array({p.x(), p.y(), p.z()});
 }
 
+/// mm; throws Error unless `value` is three numbers within the largest distance.
+[[nodiscard]] inline Vec3 point_of(const JsonValue& value) {
+    const auto items = value.items(3);
+    Vec3 p;
+    for (std::size_t n = 0; n < 3; ++n) {
+        p[static_cast<Eigen::Index>(n)] = items[n].number(-farthest_point_mm, farthest_point_mm);
+    }
+    return p;
+}
+
 template <class Value> Value choice(const JsonValue& value, std::span<const Choice<Value>> choices) {
     const std::string text = value.text();
     std::string known;

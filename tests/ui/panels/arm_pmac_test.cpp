@@ -408,7 +408,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     }));
     ASSERT_TRUE(bench.person.live_until([&] { return bench.is(DriverState::idle); }));
     bench.person.click("lower/command");
-    bench.person.type("FOO");
+    bench.person.type("NONSENSE");
     bench.person.press_key(render::Key::enter);
     ASSERT_TRUE(bench.person.live_until([&] {
         return bench.person.app().look().connection.status.answer.state ==
@@ -420,7 +420,7 @@ TEST(ArmAtPmacU4, TheTerminalAsksTheCardAndShowsItsErrors) {
     for (const drivers::ConsoleLine& line : lines) {
         texts.push_back((line.sent ? "> " : "") + line.text);
     }
-    EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> FOO"}));
+    EXPECT_THAT(texts, testing::IsSupersetOf({"> I122", "32", "> NONSENSE"}));
     EXPECT_THAT(texts, testing::Contains(testing::StartsWith("ERR003")));
     bench.person.frames(2);
     bench.person.keep("arm-terminal");

@@ -77,6 +77,11 @@ bool has_buffer_word(std::string_view line) {
     });
 }
 
+std::string at_once_message(std::string_view line) {
+    return fmt::format(
+        "'{}' is no line of a program: between OPEN and CLOSE the card would act on it at once", line);
+}
+
 std::string second_open_message(std::string_view line) {
     constexpr int buffer_in_use = 7;
     return fmt::format("'{}' is rejected: ERR{:03}, {}", line, buffer_in_use, pmac_error(buffer_in_use));

@@ -19,6 +19,10 @@ namespace millwright::pmac::internal {
 /// Whether `line` has an OPEN, CLOSE or CLEAR.
 [[nodiscard]] bool has_buffer_word(std::string_view line);
 
+/// The message for a `line` between OPEN and CLOSE that acts_at_once(), and its hint.
+[[nodiscard]] std::string at_once_message(std::string_view line);
+inline constexpr const char* at_once_hint = "send it after CLOSE; a PLC program sends commands by CMD\"...\"";
+
 /// The message and the hint for `line`, which opens a buffer while the one that `open` opened is not closed.
 [[nodiscard]] std::string second_open_message(std::string_view line);
 [[nodiscard]] std::string second_open_hint(std::string_view open);

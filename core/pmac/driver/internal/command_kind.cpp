@@ -62,6 +62,12 @@ bool enables_plc(std::string_view line) {
 
 bool runs_program(std::string_view line) {
     const std::vector<PlacedWord> words = placed_words(line);
+    // The card refuses a line whole that no command begins: text as NONSENSE.
+    constexpr std::string_view begin_nothing = "CDEGLNTUXY";
+    if (!words.empty() && words.front().text.size() == 1 &&
+        begin_nothing.find(words.front().text.front()) != std::string_view::npos) {
+        return false;
+    }
     for (std::size_t n = 0; n < words.size(); ++n) {
         // Behind a comma or a parenthesis they are an axis, or how an M-variable is read.
         const bool argument = n > 0 && (words[n - 1].text == "," || words[n - 1].text == "(");

@@ -282,12 +282,7 @@ void PmacSession::check_open(const std::vector<std::string>& lines) const {
             throw Error(second_open_message(line), {}, second_open_hint(open));
         }
         if (!open.empty() && !closes_buffer(line) && acts_at_once(line)) {
-            throw Error(
-                fmt::format("'{}' is no line of a program: between OPEN and CLOSE the card would act on it "
-                            "at once",
-                            line),
-                {},
-                "send it after CLOSE; a PLC program sends commands by CMD\"...\"");
+            throw Error(at_once_message(line), {}, at_once_hint);
         }
         open = opens_buffer(line) ? line : closes_buffer(line) ? "" : open;
     }
