@@ -1,4 +1,4 @@
-// What a person at the command line is told of a PMAC's protections and of the power of its motors.
+// What the command line reports to a person of a PMAC's protections and of the power of its motors.
 #pragma once
 
 #include "core/base/clock.h"

@@ -24,7 +24,7 @@ using toolpath::PlaceFigures;
 using toolpath::SetUpCost;
 using toolpath::SetUpPlace;
 
-/// The places of one rank, some at a time; each is told of, or why there are no more.
+/// The places of one rank, some at a time; each is reported, or why there are no more.
 void evaluate_places(const Ranks& ranks,
                      const SetUpCost& cost,
                      std::span<const SetUpPlace> places,

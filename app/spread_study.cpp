@@ -23,7 +23,7 @@ namespace {
 using studies::StudyCase;
 using studies::StudyRow;
 
-/// The cases of one rank, one after another; every one is told of, and the end in any case.
+/// The cases of one rank, one after another; every one is reported, and the end in any case.
 void study_cases(const Ranks& ranks,
                  std::span<const StudyCase> cases,
                  const StudyOne& study,

@@ -89,7 +89,7 @@ Frame frame_of(const std::vector<double>& v) {
 /// A plot's lines are no G-code, and its first one would be told as wrong.
 void refuse_plots(const std::string& file) {
     if (project::is_plot_file(file)) {
-        (void)read_file(file); // that it is missing is told first
+        (void)read_file(file); // that it is missing is reported first
         throw Error(
             "a plot is not a program",
             file,

@@ -98,7 +98,7 @@ struct DriverStatus {
         false; ///< the doubt is about something that costs the position, as a reset in motion
     std::string position_confirmed; ///< the doubt that a person has ended by a word; empty: none
     kinematics::AxisPositions velocity;
-    bool powered = true; ///< its motors, where that is told
+    bool powered = true; ///< its motors, where that is reported
     /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed;
     /// or it was assumed, until the machine was told to go somewhere or Driver::stands_at(). Where the
     /// controller does not tell it is true.
@@ -128,8 +128,8 @@ struct DriverStatus {
     std::optional<ToolChangeStatus> tool_change; ///< under way
     /// Of the current or last program: lines that are not of it and were sent for its tool changes.
     std::vector<std::string> own_lines;
-    bool link_lost = false; ///< an alarm because nobody answers any more; reset() makes the link again
-    std::string message;    ///< why there is an alarm or a hold that nobody here asked for, in a sentence
+    bool link_lost = false; ///< an alarm because the controller no longer answers; reset() reconnects
+    std::string message;    ///< why there is an alarm or a hold that was not requested here, in a sentence
 
     /// What a program calls the position.
     [[nodiscard]] kinematics::AxisPositions work_position() const {

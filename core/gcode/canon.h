@@ -98,7 +98,7 @@ enum class CommandKind : std::uint8_t {
     set_motion_control_mode, ///< index: PathMode; value: tolerance; mode: ModeOrigin
     set_naivecam_tolerance,  ///< value
     select_plane,            ///< index: Plane
-    start_speed_feed_synch,  ///< value: feed a revolution
+    start_speed_feed_synch,  ///< value: feed per revolution
     stop_speed_feed_synch,
     dwell,             ///< value: s
     set_spindle_mode,  ///< value: 0 constant rpm, else constant surface speed up to so many rpm

@@ -93,7 +93,7 @@ struct RedistributionInput {
 /// Where the weight of the elliptic adaptation comes from.
 enum class WeightSource { error, expression, mixed, w1, w2, w3, w4 };
 
-/// Rows and columns of what is painted: at most, and where nobody has painted yet.
+/// Rows and columns of what is painted: at most, and where nothing has been painted yet.
 inline constexpr int most_painted = 257;
 inline constexpr int fresh_painted = 65;
 

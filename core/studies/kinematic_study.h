@@ -40,7 +40,7 @@ inline constexpr std::array every_study_method{StudyMethod::uniform,
 struct StudyCase {
     std::string surface; ///< id of a preset
     std::string machine; ///< id of a shipped machine
-    int points = 0;      ///< nodes a track
+    int points = 0;      ///< nodes per track
     int tracks = 0;
 };
 

@@ -97,8 +97,8 @@ public:
     [[nodiscard]] MachineConnection& connection() { return *connection_; }
     /// To the machine that the view state names.
     void connect();
-    /// Before a frame is drawn: stops a jog that nobody can be holding any more. `held`: a mouse button, a
-    /// key or a bumper of the jog is down.
+    /// Before a frame is drawn: stops a jog that can no longer be held. `held`: a mouse button, a key or a
+    /// bumper of the jog is down.
     void watch_jog(bool held, bool focused);
     /// As it is in this frame; nothing where none is connected.
     void see_gamepad(const std::optional<render::Gamepad>& gamepad) { gamepad_ = gamepad; }

@@ -84,7 +84,7 @@ private:
                 found = std::make_shared<const Answer>(work_(
                     *wish,
                     Progress([this](const Progress::Report& now) { listen(now); }, present.get_token())));
-            } catch (const Cancelled&) { // nobody wants it any more
+            } catch (const Cancelled&) { // no longer needed
             }
             {
                 const std::scoped_lock lock(mutex_);

@@ -1,5 +1,5 @@
-// What the connected machine has to say once, whoever looks at the time: it goes into the log, and what a
-// person has to know before anything moves is told.
+// What the connected machine reports once, whoever looks at the time: it goes into the log, and what a person
+// has to know before anything moves is shown.
 #pragma once
 
 #include "core/pmac/driver/pmac_file.h"

@@ -290,7 +290,7 @@ void ArmPanel::draw_solutions(Ui& ui, const FrameState& now, ActionQueue& ask) c
             ui, "reason", {widgets::Severity::warning, as_sentence(workspace.reason()), {}});
         return;
     }
-    // Of any joint from where it stands.
+    // Of any joint from its position.
     constexpr std::array<widgets::Column, 2> turning{
         {{"Solution", {}, 1.6F}, {"Max. travel", "\u00b0", 1.0F, true}}};
     constexpr std::array<widgets::Column, 3> sliding{

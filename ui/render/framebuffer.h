@@ -1,4 +1,4 @@
-// Something to draw into: colour (RGBA8) and depth, with or without several samples a pixel.
+// Something to draw into: colour (RGBA8) and depth, with or without several samples per pixel.
 #pragma once
 
 #include "ui/render/gl_objects.h"

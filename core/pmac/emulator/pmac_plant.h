@@ -22,7 +22,7 @@ struct PmacPlant {
 };
 
 /// The four driven axes of the Motoman L-3 as Saengsasri, Nittayachin 1996, KMITL, found them: encoders
-/// counted once a line, three of them the other way round, and the offsets that held them still.
+/// counted once per line, three of them the other way round, and the offsets that held them still.
 [[nodiscard]] inline std::vector<PmacPlant> arm_plants() {
     std::vector<PmacPlant> plants(4);
     plants[0].decode = 1;

@@ -245,7 +245,7 @@ TEST(CordicCompiler, RefusesAnArcOfTooManyChordsInAnyPlane) {
     }
 }
 
-// 0.1 mm a turn at 1200 and 2400 turns a minute, then mm a minute, then 2 a minute (inverse time).
+// 0.1 mm per turn at 1200 and 2400 turns per minute, then mm per minute, then 2 per minute (inverse time).
 TEST(CordicCompiler, KnowsFeedsARevolutionAMinuteAndOfInverseTime) {
     const CordicProgram program = compiled_program(
         "G21 S1200 M3\nG95 F0.1 G1 X5\nS2400\nG1 X10\nG94 F300\nG1 X15\nG93 G1 X20 F2\nM2\n");

@@ -348,7 +348,7 @@ TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
     EXPECT_EQ(*bench.made().path, drawn);
 }
 
-/// Where samples ship nobody looks for programs, and perhaps nobody may write.
+/// Users do not look for programs in the folder of the shipped samples, which may not be writable.
 TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     const auto programs_there = [] {

@@ -1,4 +1,4 @@
-// What a PMAC tells of each motor beyond position and status: how far it lags, what its amplifier is told,
+// What a PMAC reports of each motor beyond position and status: how far it lags, what its amplifier is given,
 // and by which I-variables it may move.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Before the link is dropped: what moves comes to rest, and motors lose the power that nobody would watch
-// over.
+// Before the link is dropped: what moves comes to rest, and motors lose the power that would no longer be
+// monitored.
 #include "core/pmac/driver/internal/pmac_session.h"
 #include "core/pmac/driver/internal/watchdog.h"
 

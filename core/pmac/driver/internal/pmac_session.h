@@ -288,7 +288,7 @@ private:
     bool held_ = false;
     bool armed_ = false;        ///< the watchdog in the card
     bool mark_is_ours_ = false; ///< P1000 was set back since the watchdog was armed
-    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion that nobody sends
+    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion without a command
     int quiet_polls_ = 0;
     int off_target_polls_ = 0; ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for

@@ -278,7 +278,7 @@ void PmacSession::watch_zone() {
     }
 }
 
-/// With a wrong gain or offset a motor goes where nobody sent it, and brakes do not hold it.
+/// With a wrong gain or offset a motor goes where it was not sent, and brakes do not hold it.
 void PmacSession::watch_rest() {
     constexpr double slack_deg = 2.0;
     const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::moving_by_command);
