@@ -95,8 +95,8 @@ public:
     }
     [[nodiscard]] std::size_t come() const { return come_; }
 
-    /// Says of each rank from `first` on whose costs are not all here, and was not told before, a sentence;
-    /// those that were only stopped are silent.
+    /// Says of each rank from `first` on whose costs are not all here, and was not reported before, a
+    /// sentence; those that were only stopped are silent.
     void tell_lost(std::size_t first, const std::function<void(const std::string&)>& say) {
         for (std::size_t rank = first; rank < ranks_; ++rank) {
             const std::vector<std::size_t> without = missing(rank);

@@ -96,7 +96,7 @@ public:
         }
         return fmt::format("rank {} {}; missing cases: {}", rank, fate(ranks_[rank]), missing);
     }
-    /// Notes and tells what is lost by the ranks from `first` on that was not told before.
+    /// Notes and tells what is lost by the ranks from `first` on that was not reported before.
     void tell_lost(std::size_t first, const StudyNews& news) {
         for (std::size_t rank = first; rank < ranks_.size(); ++rank) {
             const auto sentence = ranks_[rank].told ? std::nullopt : lost_by(rank);

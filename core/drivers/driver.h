@@ -56,7 +56,7 @@ struct Capabilities {
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };
 
-/// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and a second.
+/// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and per second.
 struct MachineLimits {
     struct Axis {
         char letter = 'X';

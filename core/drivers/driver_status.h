@@ -54,7 +54,7 @@ struct Inputs {
 
 /// How the last probing ended.
 struct Probing {
-    int number = 0;                     ///< counts since connect(), so that a new one can be told
+    int number = 0;                     ///< counts since connect(), so that a new one can be recognised
     bool touched = false;               ///<
     kinematics::AxisPositions position; ///< where, in machine coordinates
 };
@@ -100,14 +100,14 @@ struct DriverStatus {
     kinematics::AxisPositions velocity;
     bool powered = true; ///< its motors, where that is reported
     /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed;
-    /// or it was assumed, until the machine was told to go somewhere or Driver::stands_at(). Where the
-    /// controller does not tell it is true.
+    /// or it was assumed, until the machine was sent to a position or Driver::stands_at(). Where the
+    /// controller does not report it this is true.
     bool position_known = true;
     std::vector<MotorReading> motors; ///< of each axis; empty where the controller does not tell
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;
-    int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not told
-    std::string modes;   ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not told
+    int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not reported
+    std::string modes;   ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not reported
     int block =
         -1; ///< of the current or last program, in execution or next, as far as is known; -1 without one
     double fraction = 0.0;   ///< of that block

@@ -68,7 +68,7 @@ protected:
     };
 
     [[nodiscard]] ControllerSession& session() const;
-    /// For who looks at the session and changes nothing.
+    /// For callers that look at the session and change nothing.
     [[nodiscard]] FairMutex& session_mutex() const;
 
 private:

@@ -44,7 +44,7 @@ struct EllipticAdaptationSettings {
 /// error in mm). Throws Error where it has none.
 using WeightOfError = std::function<WeightPtr(const WeightPtr& error_density)>;
 
-/// What an adaptation of nu x nv nodes takes at most, bytes: to be told before it begins.
+/// What an adaptation of nu x nv nodes takes at most, bytes: to be shown before it begins.
 [[nodiscard]] std::size_t memory_bytes(EllipticMethod method, int nu, int nv);
 
 /// The harmonic map with what cuts the error most (tests/core/toolpath/elliptic_gain_test.cpp).

@@ -10,7 +10,7 @@ namespace millwright::grid {
 /// Shares are 0 to 1. Values outside their range throw Defect when the optimiser is made.
 struct TrackSettings {
     // The lattice
-    int lattice = 0;             ///< intervals a track, n to 100 000; 0: max(160, 4 n) for n nodes
+    int lattice = 0;             ///< intervals per track, n to 100 000; 0: max(160, 4 n) for n nodes
     double monitor_share = 0.5;  ///< of its density that follows the error, 0 to 0.99
     double longest_move = 4.5;   ///< that is looked at, in mean steps of a track, 1.5 to 100
     double shortest_move = 0.03; ///< the same, 0 to 0.5

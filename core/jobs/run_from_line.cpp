@@ -282,7 +282,7 @@ std::string across(const ModalState& state, std::span<const std::string_view> li
 
 /// Down not faster than the program itself last went straight down.
 double plunge_feed(const ModalState& state, const Watcher& watcher) {
-    constexpr double slow_mm = 100.0; // a minute, where the program's feeds say nothing about it
+    constexpr double slow_mm = 100.0; // per minute, where the program's feeds say nothing about it
     const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
     const bool told = by_the_minute && state.feed_rate > 0.0;
     const double feed = told ? state.feed_rate : slow_mm / mm_of(state.unit);

@@ -48,7 +48,7 @@ struct MovedAxes {
 enum class MachineKind : std::uint8_t {
     simulated,  ///< inside this program; nothing real moves
     controlled, ///< a controller reads G-code
-    positioned, ///< told positions, and tells nothing back; a spindle is switched by hand
+    positioned, ///< given positions, and reports nothing back; a spindle is switched by hand
     arm         ///< joints of an arm
 };
 

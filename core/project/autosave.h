@@ -28,7 +28,7 @@ public:
     void drop();
     /// Blocks until what was asked for stands on disk.
     void wait_idle();
-    /// Why the last write failed; told once.
+    /// Why the last write failed; reported once.
     [[nodiscard]] std::optional<Diagnostic> take_failure();
 
 private:

@@ -120,7 +120,7 @@ struct EllipticInput {
 };
 
 struct TracksInput {
-    int lattice = 0;             ///< places a track to choose from; 0: max(160, 4 n)
+    int lattice = 0;             ///< places per track to choose from; 0: max(160, 4 n)
     double error_exponent = 2.0; ///< p of the cost sum length * error^p
     double axis_weight = 0.0;    ///< mm that one degree of axis deviation counts
     int polish_sweeps = 20;

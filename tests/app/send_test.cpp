@@ -361,7 +361,7 @@ TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
     EXPECT_EQ(run(words()).exit_code, 0);
 }
 
-/// Each command is a program of its own: what one has seen the next has to be told by the disk.
+/// Each command is a program of its own: what one has seen the next has to read from the disk.
 TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     write_content(file, zigzag(300));
     Emulator emulator(port, {"--speed", "20", "--faults", "reset=2000"});

@@ -53,7 +53,7 @@ public:
         const std::scoped_lock lock(mutex_);
         return busy_ || wish_;
     }
-    /// How far what is being done has come, as it tells; nothing told yet: 0 and no text.
+    /// How far what is being done has come, as it tells; nothing reported yet: 0 and no text.
     [[nodiscard]] Progress::Report report() const {
         const std::scoped_lock lock(mutex_);
         return report_;

@@ -21,7 +21,7 @@ public:
                 ViewState& view_state);
     /// A file of settings went to the card, whose answer has the number `answer`.
     void sent(int answer, pmac::PmacFile file);
-    /// Of the connected card, a sentence for each; as it told last.
+    /// Of the connected card, a sentence for each; as last reported.
     [[nodiscard]] const std::vector<std::string>& protections_off() const { return protections_off_; }
 
 private:

@@ -173,7 +173,7 @@ void ArmPanel::draw_joints(Ui& ui, const FrameState& now, ActionQueue& ask) cons
         (void)widgets::banner(ui,
                               "not_known",
                               {widgets::Severity::warning,
-                               now.connection.status.velocity.size() == 0 // as last told
+                               now.connection.status.velocity.size() == 0 // as last reported
                                    ? "Position unknown: these are the last angles that the card reported, "
                                      "and the arm may have moved since. Inspect the arm."
                                    : "Position unknown: these angles are relative to the pose at which the "

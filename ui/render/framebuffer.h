@@ -10,7 +10,7 @@ namespace millwright::render {
 /// What is worth its time: while things move, `rough` costs a third where the processor draws.
 enum class Edges {
     smooth, ///< all samples of the framebuffer
-    rough   ///< one sample a pixel
+    rough   ///< one sample per pixel
 };
 
 class Framebuffer {

@@ -61,8 +61,7 @@ private:
     int decimals_;
 };
 
-/// Where the machine was told to go so far, in whole units of the last digit, so that relative records never
-/// drift.
+/// Where the machine was sent so far, in whole units of the last digit, so that relative records never drift.
 class RecordPath {
 public:
     RecordPath(bool relative, double period, int decimals)

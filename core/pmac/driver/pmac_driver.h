@@ -67,7 +67,7 @@ public:
     /// After close(): what a person should know of motors that may have kept their power; "" if the card told
     /// that they are as PmacSettings::parting says.
     [[nodiscard]] std::string farewell() const;
-    [[nodiscard]] bool any_power() const; ///< of its motors, as the card told last
+    [[nodiscard]] bool any_power() const; ///< of its motors, as the card last reported
 
 private:
     [[nodiscard]] internal::PmacSession& talk() const;

@@ -14,7 +14,7 @@ struct PmacPlant {
     double coast_time = 0.02;     ///< s: how it comes to rest without an amplifier
     double bias = 0.0;            ///< bits that the amplifier adds
     double friction = 0.0;        ///< bits below which it does not move
-    /// Encoder decode (I900, ...) with which it counts as here told; nothing: with any.
+    /// Encoder decode (I900, ...) with which it counts as given here; nothing: with any.
     std::optional<int> decode;
     double home_edge = 5000.0; ///< where the home flag falls, going up
     double low_switch = -std::numeric_limits<double>::infinity();

@@ -149,7 +149,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
                    way.push_back(*place);
                }
            });
-    ASSERT_FALSE(way.empty()); // the window told how far it was
+    ASSERT_FALSE(way.empty()); // the window showed how far it was
     EXPECT_GT(way.back().share, 0.9);
     EXPECT_GT(way.back().line, way.back().lines - 8);
     EXPECT_LT(way.front().share, 0.3);

@@ -17,7 +17,7 @@ public:
     enum class Outcome {
         none,     ///< still on its way, or nothing was sent
         answered, ///< accepted; `lines` is what it said
-        refused,  ///< `error` is the card's number, 0 if it told none
+        refused,  ///< `error` is the card's number, 0 if it gave none
         unsent,   ///< the card was ordered to forget it: it did not come as it was sent
         lost      ///< it is unknown whether the card has done it
     };

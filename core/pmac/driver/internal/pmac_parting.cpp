@@ -34,7 +34,7 @@ bool PmacSession::takes_power() const {
 
 void PmacSession::leave(double now) {
     if (stage_ == Stage::closed) {
-        return; // what was told at the parting stands
+        return; // what was reported at the parting stands
     }
     farewell_.clear();
     if (stage_ == Stage::greeting) {
@@ -54,7 +54,7 @@ void PmacSession::leave(double now) {
     part(now);
 }
 
-/// Once nothing brakes any more: kills, until the card has told that nothing has power.
+/// Once nothing brakes any more: kills, until the card has reported that nothing has power.
 void PmacSession::part(double now) {
     if (!leaving_ || stage_ == Stage::stopping) {
         return;

@@ -223,7 +223,7 @@ void PmacSession::watch_guard() {
     }
 }
 
-/// By what the card told last of the following errors, if that was just now.
+/// By what the card last reported of the following errors, if that was just now.
 void PmacSession::watch_following(double now) {
     constexpr double fresh = 0.3; // s
     const std::vector<drivers::MotorReading>& readings = readings_.motors();

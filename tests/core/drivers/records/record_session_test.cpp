@@ -261,7 +261,7 @@ TEST(AnswerPace, TimeTellsNothingOfATableThatAnswersWhatItHasTaken) {
     EXPECT_FALSE(when_there.fits(1.0, 0.1));
 }
 
-// The spindle is a person's, and the table was told nothing of it.
+// The spindle is a person's, and the table was sent nothing of it.
 TEST(RecordSession, NothingIsExecutedBeforeTheTableHasObeyedSomething) {
     emulators::TableEmulator table = table_of(answered_records(), {.refuses = 1});
     Wire wire(table, answered_records());
