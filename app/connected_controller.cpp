@@ -260,7 +260,7 @@ void ConnectedController::ask_whether_position_is_right(const std::string& why, 
     remember();
 }
 
-/// What cannot be remembered is told, and keeps nobody from working.
+/// What cannot be remembered is reported, and stops no work.
 void ConnectedController::remember() {
     try {
         memory_.keep(driver_->status());
@@ -360,7 +360,7 @@ void ConnectedController::ask_for_tool(const jobs::Job& job, const std::stop_tok
     if (sentence.empty()) {
         return;
     }
-    look_at(job); // nobody is asked about what cannot be run
+    look_at(job); // no questions about what cannot be run
     if (::isatty(STDIN_FILENO) == 0) {
         fmt::print(stderr, "millwright: {}\n", sentence);
         if (!choice_.right_tool) {

@@ -68,12 +68,11 @@ public:
     /// Throws Error for what this controller must not be sent. To be called for each job before connect().
     void check(const jobs::Job& job);
     /// Asks a person at a terminal whether the position is right where something has cost it. Throws Error if
-    /// nobody answers, or if the controller is locked and nobody said that it may be unlocked, or that it
-    /// shall be homed first, which moves it; also if the machine lacks an axis of a job that was checked;
-    /// `at_a_line`: also if the position that a job needs that begins there is in doubt. Nothing was unlocked
-    /// or moved then.
+    /// there is no answer, or if the controller is locked and neither unlocking it nor homing it first, which
+    /// moves it, was allowed; also if the machine lacks an axis of a job that was checked; `at_a_line`: also
+    /// if the position that a job needs that begins there is in doubt. Nothing was unlocked or moved then.
     void connect(bool at_a_line, const std::stop_token& stop);
-    /// Throws Error for what the connected machine could not do of it from where it stands; nothing moves.
+    /// Throws Error for what the connected machine could not do of it from its position; nothing moves.
     void look_at(const jobs::Job& job) const;
     /// Has the controller read it in its check mode, in which nothing moves. Throws Error with what it
     /// refuses.

@@ -14,8 +14,8 @@ namespace millwright::app {
 enum class Suspending { allowed, refused };
 
 /// Made before any other thread, so that all of them leave these signals to this one. The signals act as
-/// before once it is gone; but a pipe that nobody reads any more ends the program neither then nor before:
-/// what was begun comes to its end. A SIGHUP that was ignored at the start, as by nohup, stays ignored.
+/// before once it is gone; but a pipe without a reader ends the program neither then nor before: what was
+/// begun is completed. A SIGHUP that was ignored at the start, as by nohup, stays ignored.
 class Interrupt {
 public:
     explicit Interrupt(Suspending suspending = Suspending::allowed);
@@ -35,7 +35,7 @@ private:
     std::atomic<bool> insisted_ = false;
     std::stop_source asked_;
     int signals_ = -1; ///< readable when a signal came
-    int over_ = -1;    ///< readable when nobody listens any more
+    int over_ = -1;    ///< readable when the thread is to end
     std::jthread thread_;
 };
 

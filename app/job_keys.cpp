@@ -81,7 +81,7 @@ void JobKeys::listen(const std::stop_token& over) {
         }
         char key = 0;
         if (::read(STDIN_FILENO, &key, 1) != 1) {
-            return; // nobody is there any more; the job goes on
+            return; // the terminal is gone; the job goes on
         }
         obey(key);
     }

@@ -31,7 +31,7 @@ private:
     jobs::Dispatcher& dispatcher_;
     drivers::Overrides overrides_;
     JobSwitches switches_;
-    int over_ = -1;       ///< readable when nobody listens any more
+    int over_ = -1;       ///< readable when the thread is to end
     std::jthread thread_; // last: it uses what stands before it
 };
 

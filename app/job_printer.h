@@ -19,7 +19,7 @@ private:
     void tell_waiting(const drivers::DriverStatus& now, bool keys);
 
     ProgressPrinter printer_;
-    std::string waits_for_; ///< that was told; empty: nothing
+    std::string waits_for_; ///< that was reported; empty: nothing
 };
 
 } // namespace millwright::app

@@ -24,7 +24,7 @@ struct JobSeriesChoice {
     std::string options;    ///< the others of the command, for the logs
     int from_line = 1;      ///< of the first file
     bool go_on = false;     ///< with what is left of an earlier command
-    bool confirmed = false; ///< nobody is asked
+    bool confirmed = false; ///< no questions are asked
 };
 
 /// Adds them to `command`; `files` tells what FILE is. `choice` must outlive the command line.

@@ -20,7 +20,7 @@ struct GatheredWork {
     std::function<void(const Tell&, const std::stop_token&)> own;  ///< of rank 0, in a thread
     std::function<void(int from, const std::string& bytes)> heard; ///< each message, those of rank 0 too
     std::function<bool()> over;                                    ///< asked after each look
-    std::function<void()> given_up; ///< nobody answers any more; rank 0 may be at its own work yet
+    std::function<void()> given_up; ///< no rank answers any more; rank 0 may still be at its own work
 };
 
 /// What is shared, for people: "60 cases on 8 ranks"; "60 cases" where there is one rank.

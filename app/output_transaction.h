@@ -17,7 +17,7 @@ struct OutputFile {
 /// False for what is missing or cannot be read.
 [[nodiscard]] bool has_bytes(const std::filesystem::path& file, const std::string& bytes);
 
-/// A folder for results that are still being made: it is made at once, so that one that cannot be is told
+/// A folder for results that are still being made: it is made at once, so that one that cannot be is reported
 /// before the work. Of it and its parents, those folders that were made and are empty at the end are removed,
 /// also where only a part could be made; files and links never are.
 class OutputFolder {

@@ -1,5 +1,5 @@
 // A machine that is moved position by position, on the command line: one that follows a motion that is
-// planned here, or one that is told each move.
+// planned here, or one that is given each move.
 #pragma once
 
 #include "app/connected_controller.h"

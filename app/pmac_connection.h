@@ -12,8 +12,8 @@
 namespace millwright::app {
 
 /// Connected, with the joint limits of `arm` (a name or a file) and with axis 5 where the card has a motor 5,
-/// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if
-/// nobody answers as a PMAC.
+/// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if no
+/// PMAC answers.
 [[nodiscard]] std::unique_ptr<pmac::PmacDriver>
 connected_pmac(const std::string& port, const std::string& arm, SteadyClock& clock);
 
@@ -23,7 +23,7 @@ public:
     PmacConnection(const std::string& port, const std::string& arm);
     PmacConnection(const PmacConnection&) = delete;
     PmacConnection& operator=(const PmacConnection&) = delete;
-    /// What it gave power to has none afterwards, and that is told.
+    /// What it gave power to has none afterwards, and that is reported.
     ~PmacConnection();
 
     /// For commands that set up motors. Ctrl+C throws Cancelled out of it once, so that what was begun can be

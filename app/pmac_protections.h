@@ -1,4 +1,4 @@
-// What a person at the command line is told of a PMAC's protections and of the power of its motors.
+// What the command line reports to a person of a PMAC's protections and of the power of its motors.
 #pragma once
 
 #include "core/base/clock.h"
@@ -6,7 +6,7 @@
 
 namespace millwright::app {
 
-/// Which protections the card has off, once it has told so.
+/// Which protections the card has off, once it has reported that.
 void warn_of_protections(const pmac::PmacDriver& driver, Clock& clock);
 
 /// Drops the link, and tells what became of the motors' power. False if the card did not confirm it: that is

@@ -19,7 +19,7 @@ public:
     void show(const Progress::Report& report);
     /// A whole line that stays, above the bar.
     void say(const std::string& line);
-    /// While nothing is done, so that the remaining time is told by the rest.
+    /// While nothing is done, so that the remaining time is estimated from the rest.
     void pause(bool on);
     /// Takes the bar away, so that other lines can follow.
     void finish();

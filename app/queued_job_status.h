@@ -9,8 +9,8 @@
 
 namespace millwright::app {
 
-/// What the queue says; with its log in `folder`, if there is one, also what that tells, which nobody has
-/// entered in the queue if this program was killed: what was executed, and where the job can go on.
+/// What the queue says; with its log in `folder`, if there is one, also what that reports but is not in the
+/// queue if this program was killed: what was executed, and where the job can go on.
 [[nodiscard]] std::string queued_job_status(const jobs::QueuedJob& job, const std::filesystem::path& folder);
 
 } // namespace millwright::app

@@ -22,7 +22,7 @@ public:
     [[nodiscard]] int size() const { return size_; }
 
     /// From another rank to rank 0. Never waits for one that may be gone: what is left to do is done by
-    /// heard(), as of all that is told.
+    /// heard(), as with every message.
     void tell(std::string_view message) const;
 
     struct Message {

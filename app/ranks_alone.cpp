@@ -24,7 +24,7 @@ void Ranks::tell(std::string_view) const {
     throw Defect("rank 0 receives messages, it does not send them");
 }
 
-void Ranks::tell_all(std::string_view) const {} // there is nobody else
+void Ranks::tell_all(std::string_view) const {} // there are no other ranks
 
 void Ranks::let_go() const {}
 

@@ -1,4 +1,4 @@
-// Which records a machine takes that is told where to go in words of its own.
+// Which records a machine takes whose targets come in a format of its own.
 #pragma once
 
 #include "core/drivers/stream/record_format.h"

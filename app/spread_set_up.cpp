@@ -24,7 +24,7 @@ using toolpath::PlaceFigures;
 using toolpath::SetUpCost;
 using toolpath::SetUpPlace;
 
-/// The places of one rank, some at a time; each is told of, or why there are no more.
+/// The places of one rank, some at a time; each is reported, or why there are no more.
 void evaluate_places(const Ranks& ranks,
                      const SetUpCost& cost,
                      std::span<const SetUpPlace> places,
@@ -95,8 +95,8 @@ public:
     }
     [[nodiscard]] std::size_t come() const { return come_; }
 
-    /// Says of each rank from `first` on whose costs are not all here, and was not told before, a sentence;
-    /// those that were only stopped are silent.
+    /// Says of each rank from `first` on whose costs are not all here, and was not reported before, a
+    /// sentence; those that were only stopped are silent.
     void tell_lost(std::size_t first, const std::function<void(const std::string&)>& say) {
         for (std::size_t rank = first; rank < ranks_; ++rank) {
             const std::vector<std::size_t> without = missing(rank);

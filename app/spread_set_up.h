@@ -17,7 +17,7 @@ namespace millwright::app {
 /// At rank 0, while the others are in help_with_costs() with the same cost.
 class SpreadCosts {
 public:
-    /// `say` is told of ranks that failed or went, in a sentence each with their places.
+    /// `say` is called for ranks that failed or went, with a sentence each that names their places.
     SpreadCosts(const Ranks& ranks,
                 const toolpath::SetUpCost& cost,
                 std::function<void(const std::string&)> say);
@@ -35,8 +35,8 @@ private:
     std::function<void(const std::string&)> say_;
 };
 
-/// At the others, until rank 0 lets them go. Where rank 0 is gone `deserted` is told so in a sentence, by the
-/// caller's thread, with the places of this rank that are lost.
+/// At the others, until rank 0 lets them go. Where rank 0 is gone `deserted` is called with a sentence, by
+/// the caller's thread, that names the places of this rank that are lost.
 void help_with_costs(const Ranks& ranks,
                      const toolpath::SetUpCost& cost,
                      const std::function<void(const std::string& lost)>& deserted,

@@ -23,7 +23,7 @@ namespace {
 using studies::StudyCase;
 using studies::StudyRow;
 
-/// The cases of one rank, one after another; every one is told of, and the end in any case.
+/// The cases of one rank, one after another; every one is reported, and the end in any case.
 void study_cases(const Ranks& ranks,
                  std::span<const StudyCase> cases,
                  const StudyOne& study,
@@ -96,7 +96,7 @@ public:
         }
         return fmt::format("rank {} {}; missing cases: {}", rank, fate(ranks_[rank]), missing);
     }
-    /// Notes and tells what is lost by the ranks from `first` on that was not told before.
+    /// Notes and tells what is lost by the ranks from `first` on that was not reported before.
     void tell_lost(std::size_t first, const StudyNews& news) {
         for (std::size_t rank = first; rank < ranks_.size(); ++rank) {
             const auto sentence = ranks_[rank].told ? std::nullopt : lost_by(rank);

@@ -22,7 +22,7 @@ struct SpreadStudy {
 /// One case on this rank. Throws as it likes.
 using StudyOne = std::function<std::vector<studies::StudyRow>(const studies::StudyCase&, const Progress&)>;
 
-/// What is told on the way, by the caller's thread.
+/// What is reported on the way, by the caller's thread.
 struct StudyNews {
     /// The rows of all cases that have come, as in SpreadStudy::rows, whenever another one has.
     std::function<void(const std::vector<std::vector<studies::StudyRow>>&)> came;
@@ -40,9 +40,9 @@ struct StudyNews {
                                        const StudyNews& news,
                                        const Progress& progress);
 
-/// At the others: does their cases and tells rank 0. Never throws what `study` throws: rank 0 is told. Where
-/// rank 0 is gone `deserted` is told in a sentence, by the caller's thread, which cases of this rank are
-/// lost; in an empty one that they are all done.
+/// At the others: does their cases and reports to rank 0. Never throws what `study` throws: that is reported
+/// to rank 0. Where rank 0 is gone `deserted` is called with a sentence, by the caller's thread, that says
+/// which cases of this rank are lost; with an empty one if they are all done.
 void help_with_study(const Ranks& ranks,
                      std::span<const studies::StudyCase> cases,
                      const StudyOne& study,

@@ -1,5 +1,5 @@
-// Options whose text the core parses: what is wrong with it is told with the option's name before any work is
-// done, as of a number that is out of its range.
+// Options whose text the core parses: what is wrong with it is reported with the option's name before any
+// work is done, as of a number that is out of its range.
 #pragma once
 
 #include <CLI/App.hpp>

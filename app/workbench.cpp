@@ -74,7 +74,7 @@ void run_window(render::WindowContext& window, actions::AppController& app, cons
     }
 }
 
-/// What moves is stopped; motors that may have kept their power are told of where somebody may read it.
+/// What moves is stopped; motors that may have kept their power are reported on standard error.
 void let_go(actions::AppController& app) {
     app.keep_window_settings();
     app.connection().disconnect();

@@ -113,7 +113,7 @@ void batch_q3_29_32_steps_portable(benchmark::State& state) {
 }
 BENCHMARK(batch_q3_29_32_steps_portable);
 
-/// Clocks of the whole processor a second: an arc of 10,000 chords.
+/// Clocks of the whole processor per second: an arc of 10,000 chords.
 void processor_clocks(benchmark::State& state, const NumberFormat& format) {
     Image image{.format = format};
     const auto mov = [&](Register target, double value) {

@@ -1,6 +1,6 @@
-// How many blocks a second are planned: 5 axes, blocks of 1 mm along a curve on a machine with a table of two
-// rotary axes, whole plans of 100,000 blocks; and how much time the whole look-ahead saves beside one of 16
-// blocks.
+// How many blocks per second are planned: 5 axes, blocks of 1 mm along a curve on a machine with a table of
+// two rotary axes, whole plans of 100,000 blocks; and how much time the whole look-ahead saves beside one of
+// 16 blocks.
 #include "core/base/units.h"
 #include "core/gcode/interpreter.h"
 #include "core/gcode_programs/machine_program.h"

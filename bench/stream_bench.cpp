@@ -1,4 +1,4 @@
-// Streaming 1,000 short blocks a second to an emulated Grbl over a pseudo-terminal, in real time: how full
+// Streaming 1,000 short blocks per second to an emulated Grbl over a pseudo-terminal, in real time: how full
 // its planner is meanwhile. 15 blocks are full; a planner that runs dry brakes.
 #include "core/base/error.h"
 #include "core/drivers/grbl/grbl_driver.h"
@@ -44,7 +44,7 @@ template <class Look> void watch(const drivers::Driver& driver, const Look& look
     expects(driver.status().state == DriverState::idle, "the emulated controller ends well");
 }
 
-/// A driver and an emulated controller that can do 1,000 such blocks a second.
+/// A driver and an emulated controller that can do 1,000 such blocks per second.
 struct Wire {
     SteadyClock clock;
     std::unique_ptr<emulators::GrblServer> server;
@@ -98,8 +98,8 @@ void stream(benchmark::State& state) {
     wire.driver->close();
 }
 
-/// As a job: with a log that is written before anything is sent. `unknown`: of so many blocks nobody would
-/// know, had the program been killed; `log_lines`: a second.
+/// As a job: with a log that is written before anything is sent. `unknown`: the number of blocks whose state
+/// would be unknown, had the program been killed; `log_lines`: per second.
 void stream_a_job(benchmark::State& state) {
     Wire wire;
     const test::ScratchFolder folder;

@@ -68,8 +68,8 @@ void points_with_normals(benchmark::State& state) {
 }
 BENCHMARK(points_with_normals);
 
-/// Looked at once and eight times a move, as while a person drags, and until its error is known (0), as in a
-/// report.
+/// Looked at once and eight times per move, as while a person drags, and until its error is known (0), as in
+/// a report.
 void error_map_of_a_million_moves(benchmark::State& state) {
     const geometry::BezierPatch patch = dome();
     const kinematics::MachineModel machine =

@@ -86,10 +86,10 @@ Frame frame_of(const std::vector<double>& v) {
     return project::base_T_path({Vec3(v[0], v[1], v[2]), Vec3(v[3], v[4], v[5])});
 }
 
-/// A plot's lines are no G-code, and its first one would be told as wrong.
+/// A plot's lines are no G-code, and its first one would be reported as wrong.
 void refuse_plots(const std::string& file) {
     if (project::is_plot_file(file)) {
-        (void)read_file(file); // that it is missing is told first
+        (void)read_file(file); // that it is missing is reported first
         throw Error(
             "a plot is not a program",
             file,

@@ -32,7 +32,7 @@ void add_cordic_pass(CLI::App& command, CordicPassOptions& options);
 /// Registers as hexadecimal numbers.
 [[nodiscard]] std::vector<std::string> hexadecimal_words(const std::array<cordic::Word, 3>& words);
 
-/// Throws Error for options that only a raw pass has, if it is none.
+/// Throws Error for options that only a raw pass has, if it is not a raw pass.
 void refuse_pass_options(const CordicPassOptions& options);
 
 /// Prints the pass. Throws Error as single_pass().

@@ -16,7 +16,7 @@ namespace millwright::app {
 
 /// What the options --steps, --timer, --min-interval and --jitter-limit say.
 struct PulseOptions {
-    std::vector<std::string> steps; ///< as X=250: steps a mm, or a degree of a rotary axis
+    std::vector<std::string> steps; ///< as X=250: steps per mm, or per degree of a rotary axis
     double timer_hz = 1e6;
     std::int64_t min_interval = 2; ///< ticks
     double jitter_limit_us = 0.0;  ///< 0: none

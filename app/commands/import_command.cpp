@@ -34,7 +34,7 @@ using nlohmann::ordered_json;
 
 struct ImportOptions {
     std::string file;
-    std::string out;                   ///< a project; empty: the file is only told of
+    std::string out;                   ///< a project; empty: only the faces are listed
     std::string deviation;             ///< comma-separated; empty: none
     std::string degrees;               ///< as "5" or "5x3"; empty: as it is
     std::string along;                 ///< empty: found

@@ -55,7 +55,7 @@ struct PlotPlayOptions {
     bool json = false;
 };
 
-/// All of them are told; the last one ends it.
+/// All of them are reported; the last one ends it.
 void expect_none(const std::vector<Diagnostic>& faults) {
     if (faults.empty()) {
         return;

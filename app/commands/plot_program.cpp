@@ -96,7 +96,7 @@ CutProgram read_cut_program_to_use(const std::string& file, const ProgramReading
     return program;
 }
 
-/// That is to be cut. Throws Error where nobody can say where it would go.
+/// That is to be cut. Throws Error if it is unknown where it would go.
 CutProgram read_cut_program_to_cut(const std::string& file, const ProgramReading& reading) {
     CutProgram program = read_cut_program(file, reading);
     if (!program.unplaced.empty()) {

@@ -53,7 +53,7 @@ struct ProgramStrokes {
     double safe_height = 0.0; ///< at which the program goes across, at least the usual one, mm
 };
 /// What it cuts, whatever the height. Says on standard error where it travels higher than usual. Throws Error
-/// as read_cut_program(), and where nobody can say where it is.
+/// as read_cut_program(), and if its position is unknown.
 [[nodiscard]] ProgramStrokes program_strokes(const std::string& file, const ProgramReading& reading);
 /// As it stands, or anew of its strokes where an option of `command` shapes these.
 int program_toolpath(const std::string& file,

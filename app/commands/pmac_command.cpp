@@ -48,7 +48,7 @@ void look_through(const std::string& command) {
     }
 }
 
-/// Throws Error, which of a port that nobody named tells how to name one.
+/// Throws Error; if no port was named it says how to name one.
 std::unique_ptr<pmac::PmacDriver> connected_card(const PmacOptions& options, SteadyClock& clock) {
     if (!options.port.empty()) {
         return connected_pmac(options.port, options.arm, clock);
@@ -119,7 +119,7 @@ public:
     bool say(const std::string& command) {
         const drivers::CommandAnswer answer = answer_to(sent(command));
         const bool is_kept = is_done(answer) && answer.text.ends_with("kept until CLOSE");
-        if (!is_kept && answer.text != driver_->status().message) { // which is told as the error
+        if (!is_kept && answer.text != driver_->status().message) { // which is reported as the error
             print(answer, answer.text);
         }
         wait_for_rest();
@@ -202,7 +202,7 @@ int talk(const PmacOptions& options) {
         look_through(command);
     }
     Conversation card(options);
-    // A card that is set up by half is told nothing more.
+    // A card that is set up by half is sent nothing more.
     bool done = options.file.empty() || card.load(options.file);
     for (const std::string& command : options.commands) {
         done = done && card.say(command);

@@ -52,7 +52,7 @@ jobs::Job job_of(const OpenedProject& opened, const plan::Plan& plan, const RunO
     job.started_at = now_for_people();
     job.machine = std::make_shared<const kinematics::MachineModel>(plan.cutting_setup->machine);
     program::Program program = *plan.program;
-    if (options.machine.driver == "cordic") { // which waits for nobody to change a tool
+    if (options.machine.driver == "cordic") { // which does not wait for a tool change
         program.tool.reset();
     }
     PostedText text = posted(program, *job.machine, choice, job.name);

@@ -41,7 +41,7 @@ struct SendOptions {
     JobSeriesChoice series;
     PlannedMachineChoice machine; ///< its controller also for grbl and linuxcnc
     std::string model;            ///< of a machine that is moved position by position
-    std::vector<double> at;       ///< where it stands: X, Y, Z; empty: at the program's start
+    std::vector<double> at;       ///< its position: X, Y, Z; empty: at the program's start
     std::vector<double> origin;   ///< where the files' zero lies on it: X, Y and perhaps Z
     std::optional<double> clearance;
 };

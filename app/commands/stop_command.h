@@ -1,4 +1,4 @@
-// `millwright stop`: brings a machine to rest that nobody here moves any more.
+// `millwright stop`: brings a machine to rest that no running Millwright controls.
 #pragma once
 
 #include "app/command.h"

@@ -40,7 +40,7 @@ int open_workbench(const std::string& file, const std::string& suggestion) {
         return 0;
     }
     if (std::filesystem::path(file).extension() == ".json") {
-        (void)open_project(file); // what is wrong with it is told here, before a window opens
+        (void)open_project(file); // what is wrong with it is reported here, before a window opens
     } else {
         expect_readable(file, suggestion);
     }

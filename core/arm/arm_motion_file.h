@@ -19,7 +19,7 @@ struct ArmBlock {
     Vec3 way = Vec3::Zero();       ///< from where the tool stands to the target
     std::optional<Vec3> center;    ///< of an arc, from where the tool stands (I J K)
     std::optional<double> radius;  ///< of an arc; negative: the long way round
-    std::optional<Vec3> tool_axis; ///< unit (A B C); where it is not told it stays
+    std::optional<Vec3> tool_axis; ///< unit (A B C); where it is not given it stays
     std::optional<double> feed;    ///< F, as written
     std::optional<double> spindle; ///< S
     std::optional<int> auxiliary;  ///< M

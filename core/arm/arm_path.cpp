@@ -17,7 +17,7 @@ namespace {
 
 constexpr double shortest_step = 1e-4;  // mm: nearer than any arm resolves
 constexpr double shortest_share = 1e-7; // of a way on which the tool turns on the spot
-constexpr double border = 0.5;          // mm: as exactly is it told where trouble begins
+constexpr double border = 0.5;          // mm: how exactly it is reported where trouble begins
 
 /// A place on a way, and the joints there.
 struct ArmPlace {

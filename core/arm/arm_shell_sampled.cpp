@@ -1,4 +1,4 @@
-// The border of a reach that nobody knows in closed form, by trying out the joints.
+// The border of a reach that has no known closed form, found by sampling the joints.
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_shell.h"
 #include "core/base/units.h"

@@ -32,7 +32,7 @@ struct ArmRecord {
                                                   const std::filesystem::path& file);
 
 /// The first three joints of each, from where the first record stands, deg: what a card of three axes is
-/// told. Throws Error unless the arm begins with three joints that turn.
+/// given. Throws Error unless the arm begins with three joints that turn.
 [[nodiscard]] std::vector<std::array<double, 3>> first_turns_deg(const ArmModel& arm,
                                                                  const std::vector<ArmRecord>& records);
 

@@ -7,9 +7,9 @@
 namespace millwright {
 
 /// Who may read a file that was not there before.
-enum class Privacy { shared, own }; ///< as the umask says; nobody but the user
+enum class Privacy { shared, own }; ///< as the umask says; the user only
 
-/// Has a random name, is made by nobody else and never through a link. It is locked while it lives: one that
+/// Has a random name, is made by no one else and never through a link. It is locked while it lives: one that
 /// a killed program has left is removed when the next is made in its folder. All members throw Error with the
 /// file that is to be written and the system's reason.
 class Draft {

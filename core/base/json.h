@@ -1,4 +1,4 @@
-// Reading our JSON files: every value knows where it stands, so that a wrong one is reported with file, line,
+// Reading our JSON files: every value knows its position, so that a wrong one is reported with file, line,
 // column and its path inside the file. Nothing is guessed: a missing, extra, repeated or mistyped field is an
 // Error.
 #pragma once
@@ -32,8 +32,8 @@ public:
     void expect_only(std::initializer_list<std::string_view> keys) const;
     void expect_only(std::span<const std::string_view> keys) const;
 
-    /// The elements of an array. Throws Error if this is none, or not of `count` elements where that is
-    /// given.
+    /// The elements of an array. Throws Error if this is not an array, or does not have `count` elements
+    /// where that is given.
     [[nodiscard]] std::vector<JsonValue> items() const;
     [[nodiscard]] std::vector<JsonValue> items(std::size_t count) const;
 

@@ -8,8 +8,8 @@
 namespace millwright {
 
 /// Calls `body(i)` for every i in [0, count), `chunk` indices in order by one thread. The body writes only
-/// what belongs to i and reads only what nobody writes. Rethrows the exception of the lowest chunk that
-/// threw.
+/// what belongs to i and reads only what no other thread writes. Rethrows the exception of the lowest chunk
+/// that threw.
 void parallel_for(std::ptrdiff_t count,
                   std::ptrdiff_t chunk,
                   const std::function<void(std::ptrdiff_t)>& body);

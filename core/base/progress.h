@@ -19,7 +19,7 @@ public:
     };
     using Listener = std::function<void(const Report&)>;
 
-    /// Tells nobody and is never cancelled.
+    /// Reports to no one and is never cancelled.
     Progress();
     Progress(Listener listener, std::stop_token stop);
 

@@ -47,7 +47,7 @@ struct ReplacedText {
 [[nodiscard]] ReplacedText
 replaced_everywhere(std::string_view text, const TextPattern& pattern, std::string_view replacement);
 
-/// Counts in small steps, so that nobody has to wait for it. Places that overlap count once.
+/// Counts in small steps, so that the caller never waits for it. Places that overlap count once.
 class TextCount {
 public:
     /// `text` must live as long.

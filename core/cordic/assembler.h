@@ -13,10 +13,9 @@ namespace millwright::cordic {
 
 struct Assembled {
     Image image;
-    std::vector<CodeLine> lines;    ///< of each instruction, in the order of their addresses
-    std::vector<Diagnostic> errors; ///< with line and column; the image is of use only if there are none
-    std::vector<Diagnostic>
-        warnings; ///< motions that lead nowhere, as far as that can be told without running
+    std::vector<CodeLine> lines;      ///< of each instruction, in the order of their addresses
+    std::vector<Diagnostic> errors;   ///< with line and column; the image is of use only if there are none
+    std::vector<Diagnostic> warnings; ///< motions that lead nowhere, as far as that is known without running
 };
 
 /// `format` and `made_for` hold where the text names nothing else.

@@ -157,7 +157,7 @@ struct Decoded {
     int size = 1; ///< bytes
 };
 
-/// The instruction at the front of `code`; nothing if there is none, or not all of it.
+/// The instruction at the front of `code`; nullopt if there is no valid one, or not all of it.
 [[nodiscard]] std::optional<Decoded> decode(std::span<const std::uint8_t> code, const NumberFormat& format);
 
 /// All pages of the ROM.

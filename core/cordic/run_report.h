@@ -45,7 +45,7 @@ struct RunReport {
     double speed_error = 0.0;       ///< largest, in parts of the programmed speed
     std::size_t speed_error_at = 0; ///< set-point, from 0, that has it
     /// Set-points, from 0 and ascending, that took longer to compute than the motion before them. Those that
-    /// move nothing are in nobody's way.
+    /// move nothing do not count.
     std::vector<std::size_t> late;
     std::optional<double> fastest; ///< speed up to which none would be late; not with fewer than two motions
 };

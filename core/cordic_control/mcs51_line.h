@@ -10,7 +10,7 @@
 
 namespace millwright::cordic {
 
-/// Reads Intel HEX, records 00 and 01. Throws Error with the line for what is none, a wrong checksum
+/// Reads Intel HEX, records 00 and 01. Throws Error with the line for an invalid record, a wrong checksum
 /// included, and for a file without its end. `file` is for messages.
 [[nodiscard]] std::vector<std::uint8_t> read_intel_hex(std::string_view text, const std::string& file);
 

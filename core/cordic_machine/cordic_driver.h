@@ -53,7 +53,7 @@ public:
 
     void connect() override { machine_.connect(); }
     /// Uses the listing alone. Throws Error with line and column for what the processor cannot do, for what
-    /// depends on where the work lies while nobody said so, and if it stops before the end of the program.
+    /// depends on where the work lies while that is not given, and if it stops before the end of the program.
     void start(drivers::Work work) override;
     void hold() override { machine_.hold(); }
     void resume() override { machine_.resume(); }

@@ -45,7 +45,7 @@ struct CordicProgramSettings {
     bool leaves_out_other_axes = false; ///< motion of other axes than X, Y and Z; else it is a fault
     int rom_pages = cordic::most_pages; ///< that the machine has; a longer program is a fault
     std::size_t most_faults = 100;
-    gcode::AxisValues start; ///< where the machine stands, mm; the processor is told
+    gcode::AxisValues start; ///< the machine's position, mm; given to the processor
 };
 
 struct CordicProgram {

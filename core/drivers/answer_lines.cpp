@@ -12,7 +12,7 @@ std::optional<std::string> AnswerLines::next() {
             constexpr std::size_t longest = 10'000;
             inbox_.erase(0, std::exchange(begin_, 0)); // once for all lines that came together
             if (inbox_.size() > longest) {
-                inbox_.clear(); // nobody's answers are that long
+                inbox_.clear(); // no answer is that long
             }
             return std::nullopt;
         }

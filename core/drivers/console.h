@@ -25,14 +25,14 @@ struct ConsoleLine {
     double time = 0.0;       ///< of the driver's clock, s
     bool sent = false;       ///< else received
     ConsoleKind kind = ConsoleKind::message;
-    std::string text; ///< without its end; bytes that nobody can read are named in words
+    std::string text; ///< without its end; unprintable bytes are named in words
 };
 
 /// Safe from any thread.
 class Console {
 public:
-    /// Keeps the last `capacity` lines. Queries and reports come ten times a second: they are left out until
-    /// somebody asks for them.
+    /// Keeps the last `capacity` lines. Queries and reports come ten times per second: they are left out
+    /// until somebody asks for them.
     explicit Console(std::size_t capacity = 10'000);
 
     void add(double time, bool sent, ConsoleKind kind, std::string text);

@@ -1,5 +1,5 @@
 // The host's side of a conversation with a controller, without wires, threads and clocks: bytes come in,
-// bytes go out, time is told. Used by one thread at a time.
+// bytes go out, the time is passed in. Used by one thread at a time.
 #pragma once
 
 #include "core/base/error.h"

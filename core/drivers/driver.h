@@ -39,7 +39,7 @@ struct Capabilities {
     bool home = false;
     std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
     bool tells_spindle = true;      ///< whether it turns
-    bool told_place = false;        ///< does not tell where it stands: a person does, stands_at()
+    bool told_place = false;        ///< does not report its position: a person enters it, stands_at()
     bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (mdi_lines.h)
     bool check_mode = false;        ///< reads a program without moving: check_there()
     bool probe = false;             ///< G38.2 as a command
@@ -56,7 +56,7 @@ struct Capabilities {
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
 };
 
-/// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and a second.
+/// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and per second.
 struct MachineLimits {
     struct Axis {
         char letter = 'X';
@@ -65,7 +65,7 @@ struct MachineLimits {
         std::optional<double> acceleration{};
         std::optional<double> jog_speed{}; ///< in force for jogs
         std::optional<double> output_V{};  ///< greatest, to its amplifier
-        std::optional<double> travel{};    ///< its length, where nobody knows from where it counts
+        std::optional<double> travel{};    ///< its length, where its zero is unknown
     };
     std::vector<Axis> axes;
     std::optional<double> spindle_rpm; ///< greatest
@@ -88,8 +88,8 @@ struct StoredOffset {
 struct Jog {
     kinematics::AxisPositions way; ///< of each axis
     double speed = 0.0;            ///< mm/s
-    /// If positive: brakes unless another jog comes within this time, s. So nobody's dead hand moves a
-    /// machine.
+    /// If positive: brakes unless another jog comes within this time, s. So a machine never keeps moving
+    /// after its operator has let go.
     double dead_man = 0.0;
 };
 
@@ -151,8 +151,8 @@ public:
     virtual void reset() = 0;
     /// A person has looked: the machine stands where DriverStatus::position says.
     virtual void trust_position();
-    /// A person has read at the machine where it stands. Throws Error unless it is at rest, and where
-    /// capabilities() says that it tells itself.
+    /// A person has read the position at the machine. Throws Error unless it is at rest, and where
+    /// capabilities() says that it reports its position.
     virtual void stands_at(const kinematics::AxisPositions& position);
     /// The caller has a reason to doubt DriverStatus::position that the driver cannot see; `why` and `lost`
     /// as DriverStatus::position_doubt and position_lost. Drivers whose position cannot be wrong unnoticed do
@@ -173,8 +173,8 @@ public:
     virtual void enable();
     /// Finds the machine's zero by its switches; also after an alarm.
     virtual void home();
-    /// Lines of G-code, or of what else the controller is told by lines (settings), executed now, while idle
-    /// or stopped; after a refused one the rest is left out. What became of them: DriverStatus::answer, whose
+    /// Lines of G-code, or of what else the controller takes as lines (settings), executed now, while idle or
+    /// stopped; after a refused one the rest is left out. What became of them: DriverStatus::answer, whose
     /// number is returned.
     virtual int command(const std::string& lines);
     /// Has the controller itself read a program in a mode in which nothing moves, while idle or stopped;
@@ -192,7 +192,7 @@ public:
 
     /// Nothing where the controller does not tell, or while disconnected.
     [[nodiscard]] virtual MachineLimits limits() const { return {}; }
-    /// Empty where there is none, or while disconnected.
+    /// Empty where there are no settings, or while disconnected.
     [[nodiscard]] virtual std::vector<ControllerSetting> settings() const { return {}; }
     [[nodiscard]] virtual std::vector<StoredOffset> stored_offsets() const { return {}; }
     /// What a person should know of the way the controller is set up, in sentences; empty while disconnected.

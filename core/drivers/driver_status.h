@@ -54,7 +54,7 @@ struct Inputs {
 
 /// How the last probing ended.
 struct Probing {
-    int number = 0;                     ///< counts since connect(), so that a new one can be told
+    int number = 0;                     ///< counts since connect(), so that a new one can be recognised
     bool touched = false;               ///<
     kinematics::AxisPositions position; ///< where, in machine coordinates
 };
@@ -98,16 +98,16 @@ struct DriverStatus {
         false; ///< the doubt is about something that costs the position, as a reset in motion
     std::string position_confirmed; ///< the doubt that a person has ended by a word; empty: none
     kinematics::AxisPositions velocity;
-    bool powered = true; ///< its motors, where that is told
+    bool powered = true; ///< its motors, where that is reported
     /// False: `position` counts from wherever the machine stood when it was switched on, until it is homed;
-    /// or it was assumed, until the machine was told to go somewhere or Driver::stands_at(). Where the
-    /// controller does not tell it is true.
+    /// or it was assumed, until the machine was sent to a position or Driver::stands_at(). Where the
+    /// controller does not report it this is true.
     bool position_known = true;
     std::vector<MotorReading> motors; ///< of each axis; empty where the controller does not tell
     /// Machine position minus work position: all offsets that are in force. Empty while disconnected.
     kinematics::AxisPositions work_offset;
-    int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not told
-    std::string modes;   ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not told
+    int work_system = 0; ///< in force, 1 is G54, 9 is G59.3; 0: not reported
+    std::string modes;   ///< G- and M-codes in force, as "G0 G54 G17 G21"; empty: not reported
     int block =
         -1; ///< of the current or last program, in execution or next, as far as is known; -1 without one
     double fraction = 0.0;   ///< of that block
@@ -128,8 +128,8 @@ struct DriverStatus {
     std::optional<ToolChangeStatus> tool_change; ///< under way
     /// Of the current or last program: lines that are not of it and were sent for its tool changes.
     std::vector<std::string> own_lines;
-    bool link_lost = false; ///< an alarm because nobody answers any more; reset() makes the link again
-    std::string message;    ///< why there is an alarm or a hold that nobody here asked for, in a sentence
+    bool link_lost = false; ///< an alarm because the controller no longer answers; reset() reconnects
+    std::string message;    ///< why there is an alarm or a hold that was not requested here, in a sentence
 
     /// What a program calls the position.
     [[nodiscard]] kinematics::AxisPositions work_position() const {

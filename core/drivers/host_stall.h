@@ -1,5 +1,5 @@
 // Whose silence it is: while this program was kept from its work (a full disk cache, a computer that was put
-// to sleep) it has asked nothing, and nobody could answer.
+// to sleep) it has asked nothing, so there could be no answer.
 #pragma once
 
 #include <utility>

@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] std::string address() const override;
     [[nodiscard]] DriverStatus status() const override;
-    /// Throws Error if nobody answers, or somebody else.
+    /// Throws Error if there is no answer, or another kind of controller answers.
     void connect() override;
     void hold() override;
     void resume() override;
@@ -50,8 +50,8 @@ protected:
                   std::unique_ptr<ControllerSession> session,
                   const ConsoleWords& words);
 
-    /// The session, for as long as this lives: nobody else touches it, and the bytes that it has to send are
-    /// sent before anybody else's.
+    /// The session, for as long as this lives: no other thread touches it, and the bytes that it has to send
+    /// are sent before those of any other.
     class Turn {
     public:
         explicit Turn(SessionDriver& driver);
@@ -68,7 +68,7 @@ protected:
     };
 
     [[nodiscard]] ControllerSession& session() const;
-    /// For who looks at the session and changes nothing.
+    /// For callers that look at the session and change nothing.
     [[nodiscard]] FairMutex& session_mutex() const;
 
 private:

@@ -1,4 +1,4 @@
-// A line of G-code reduced to what a controller executes, for who looks for codes in it.
+// A line of G-code reduced to what a controller executes, for callers that look for codes in it.
 #pragma once
 
 #include <string>

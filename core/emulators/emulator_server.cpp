@@ -75,7 +75,7 @@ void EmulatorServer::turn(double& last) {
     silence_ = heard.empty() ? silence_ : 0.0;
     passed_ += static_cast<std::int64_t>(heard.size());
     if (std::exchange(visits_, visits) != visits && reset_when_opened_) {
-        emulator_->power_cycle(); // and what was said meanwhile went to nobody
+        emulator_->power_cycle(); // and what was sent meanwhile is lost
     } else {
         emulator_->receive(heard);
     }

@@ -21,8 +21,9 @@ namespace millwright::emulators {
 
 class EmulatorServer {
 public:
-    /// Serves opened `links`, all of which speak to the one controller; `speed` is machine seconds a second.
-    /// Of `faults` those of the controller happen here (reset, alarm); those of the wire belong to the links.
+    /// Serves opened `links`, all of which speak to the one controller; `speed` is machine seconds per
+    /// second. Of `faults` those of the controller happen here (reset, alarm); those of the wire belong to
+    /// the links.
     EmulatorServer(std::vector<std::unique_ptr<links::Link>> links,
                    const Clock& clock,
                    std::unique_ptr<Emulator> emulator,

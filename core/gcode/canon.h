@@ -1,6 +1,6 @@
 // What a program tells the machine, one operation at a time: the canonical commands of RS-274/NGC, as
 // LinuxCNC names and orders them. Positions are those of the active coordinate system, in the length unit
-// that the last use_length_units named (mm or inch), degrees, and units a minute; offsets and rotation come
+// that the last use_length_units named (mm or inch), degrees, and units per minute; offsets and rotation come
 // as commands of their own. The reader calls a sink; nothing is kept.
 #pragma once
 
@@ -93,12 +93,12 @@ enum class CommandKind : std::uint8_t {
     set_g92_offset,          ///< mode: AxisBits whose offset is known; axes
     set_xy_rotation,         ///< index: 1 if it is known, else 0; value: degrees
     set_feed_reference,      ///< always XYZ
-    set_feed_mode,           ///< index: 0 a minute (or inverse time), 1 a revolution
+    set_feed_mode,           ///< index: 0 per minute (or inverse time), 1 per revolution
     set_feed_rate,           ///< value
     set_motion_control_mode, ///< index: PathMode; value: tolerance; mode: ModeOrigin
     set_naivecam_tolerance,  ///< value
     select_plane,            ///< index: Plane
-    start_speed_feed_synch,  ///< value: feed a revolution
+    start_speed_feed_synch,  ///< value: feed per revolution
     stop_speed_feed_synch,
     dwell,             ///< value: s
     set_spindle_mode,  ///< value: 0 constant rpm, else constant surface speed up to so many rpm

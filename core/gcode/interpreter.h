@@ -37,8 +37,8 @@ public:
 
     /// What is in force after the last line.
     [[nodiscard]] const ModalState& state() const;
-    /// The value of a numbered parameter, as #5221; lengths in the machine's unit. Throws Defect for a number
-    /// that is none.
+    /// The value of a numbered parameter, as #5221; lengths in the machine's unit. Throws Defect for an
+    /// invalid number.
     [[nodiscard]] double parameter(int number) const;
     /// The last line.
     [[nodiscard]] SourcePlace place() const;

@@ -39,7 +39,7 @@ namespace millwright::gcode {
     return end + length_of_line_end(text, end);
 }
 
-/// With a \n in place of each \r that stands alone: byte for byte as long, for who knows \n and \r\n.
+/// With a \n in place of each \r that stands alone: byte for byte as long, for readers that know \n and \r\n.
 [[nodiscard]] inline std::string with_newlines(std::string text) {
     for (std::size_t n = 0; n < text.size(); ++n) {
         if (text[n] == '\r' && (n + 1 == text.size() || text[n + 1] != '\n')) {

@@ -19,7 +19,7 @@ namespace {
 constexpr int largest_number = 99999;
 constexpr double largest_length = 1e9; // as the words of a program
 
-/// One line of the file and where it stands.
+/// One line of the file and its position.
 struct Line {
     std::string_view text;
     std::string_view all;

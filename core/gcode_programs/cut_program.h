@@ -18,7 +18,7 @@
 namespace millwright::gcode {
 
 struct CutProgramSettings {
-    std::optional<ToolTable> tools{};     ///< not given: any, of a length and a diameter that nobody told
+    std::optional<ToolTable> tools{};     ///< not given: any, of unknown length and diameter
     bool block_delete = false;            ///< lines that begin with / are left out
     double chord_tolerance = 0.002;       ///< of arcs and splines
     std::optional<double> chord_length{}; ///< arcs by the rule of the thesis instead: MachineProgramSettings
@@ -62,8 +62,8 @@ struct CutProgram {
 };
 
 /// The program `text`, called `file` in diagnostics. Throws Error with the line for the first thing that is
-/// wrong in it or that X, Y and Z cannot do: other axes, no feed, probing, compensation by a tool whose
-/// diameter nobody told; for more moves than a path may have; and where it cuts nothing.
+/// wrong in it or that X, Y and Z cannot do: other axes, no feed, probing, compensation by a tool of unknown
+/// diameter; for more moves than a path may have; and where it cuts nothing.
 [[nodiscard]] CutProgram read_cut_program(std::string_view text,
                                           const std::filesystem::path& file,
                                           const CutProgramSettings& settings = {});

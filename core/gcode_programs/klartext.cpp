@@ -81,7 +81,7 @@ private:
     std::string name_;
     AxisValues at_; ///< as WrittenStep::target
     double unit_ = 1.0;
-    double feed_ = 0.0; ///< mm or degrees a minute
+    double feed_ = 0.0; ///< mm or degrees per minute
     double rpm_ = 0.0;
     double tool_ = 0.0; ///< number of the last that was called
     int line_ = 0;

@@ -26,7 +26,7 @@ namespace millwright::gcode {
 
 namespace {
 
-/// What the end of a program does by itself.
+/// What the end of a program does automatically.
 bool switches_off(const program::Block& block) {
     return block.kind == program::BlockKind::spindle_off || block.kind == program::BlockKind::coolant_off;
 }

@@ -40,8 +40,8 @@ struct MachineProgram {
     /// What blocks cannot say and what would be another thing without it, the first of each kind: probing, a
     /// feed in step with the spindle. Its moves are in the program; who makes motion of them refuses.
     std::vector<Diagnostic> lost;
-    /// What blocks say in another way or not at all, the first of each kind: mist (flood), work systems
-    /// whose offset nobody told (it is zero), outputs, override switches.
+    /// What blocks say in another way or not at all, the first of each kind: mist (flood), work systems whose
+    /// offset is not given (it is zero), outputs, override switches.
     std::vector<Diagnostic> simplified;
     /// That axes move while others have no known position: the program sets these later or never.
     std::optional<Diagnostic> start_notice;
@@ -49,7 +49,8 @@ struct MachineProgram {
     /// program has said neither, the first of each kind: increments, arcs and cutter compensation from there,
     /// offsets taken from there (G92, G10 L20), machine positions among those of the work (G53, G28, G30),
     /// parameters that only the control knows, two systems without offsets, a retract to a reference point
-    /// nobody has stored that would go down. The blocks take zero; who makes another program of them refuses.
+    /// that is not stored and would go down. The blocks take zero; a caller that makes another program of
+    /// them refuses.
     std::vector<Diagnostic> unplaced;
     double first_rpm = 0.0; ///< the first S above zero, also where the spindle is never switched on
     double length = 0.0;    ///< of the ways of X Y Z, rapids too, mm

@@ -394,7 +394,7 @@ void Placement::expect_one_frame(int axis, SourcePlace source, std::string_view 
     }
 }
 
-/// Where nobody has stored a reference point it is taken for machine zero: no retract goes down to that.
+/// A reference point that is not stored is taken for machine zero: no retract goes down to that.
 void Placement::look_at_reference(const Move& move,
                                   const AxisValues& from,
                                   const AxisValues& to,

@@ -33,9 +33,9 @@ public:
 private:
     /// mm per minute; not above 0 without a feed.
     [[nodiscard]] double rate() const;
-    /// Degrees a minute, the same.
+    /// Degrees per minute, the same.
     [[nodiscard]] double angular_rate() const;
-    /// What a rate has to be multiplied by, for it to be a minute; nothing where nobody knows.
+    /// The factor that converts a rate to a rate per minute; nullopt if unknown.
     [[nodiscard]] std::optional<double> times_per_minute() const;
 
     double rate_ = 0.0;           ///< mm per minute or per revolution

@@ -43,7 +43,7 @@ struct WrittenTextRules {
     Dialect dialect = Dialect::linuxcnc;
     std::string grbl_axes = "XYZ"; ///< of a Grbl: letters of its axes
     AxisValues start;              ///< where the axes stand before, machine positions, mm and degrees
-    AxisValues work_offset;        ///< mm; what leaves it out (G53, M91) is told apart by it
+    AxisValues work_offset;        ///< mm; distinguishes what leaves it out (G53, M91)
     Tool tool;                     ///< the one in the tool table, with its offset in mm; number 0: none
     /// M codes that switch tip control on and off; 0: none, or those of the dialect.
     int tip_on = 0, tip_off = 0;

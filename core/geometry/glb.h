@@ -11,7 +11,7 @@
 
 namespace millwright::geometry {
 
-/// A body and where it stands at rest, in a frame whose z points up. Only other programs look at that.
+/// A body and its position at rest, in a frame whose z points up. Only other programs look at that.
 struct PlacedBody {
     SolidBody body;
     Frame at_rest = Frame::Identity();

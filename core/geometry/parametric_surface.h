@@ -1,5 +1,5 @@
 // A surface S(u,v) over [0,1]^2 as grids and tool paths see it: where it is, how it goes on from there and
-// which way it faces. What it is made of is told by pieces().
+// which way it faces. pieces() says what it is made of.
 #pragma once
 
 #include "core/geometry/vectors.h"

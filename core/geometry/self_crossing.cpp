@@ -109,8 +109,8 @@ private:
     /// Neighbours share a corner, at a side also with a triangle that is far off in the parameters.
     [[nodiscard]] bool meet(const Triangle& a, const Triangle& b) const {
         if (is_flat(a) || is_flat(b)) {
-            return false; // where a patch shrinks to a line or a point it has no normal, which is told as
-                          // that
+            return false; // where a patch shrinks to a line or a point it has no normal, which is reported
+                          // as such
         }
         bool neighbours = false;
         for (const Corner& p : a.corners) {

@@ -271,7 +271,7 @@ private:
 
     void
     fill_slice(const Run& run, std::vector<Bound> bounds, std::ptrdiff_t passed, Line& below, Line& above) {
-        // Each end in its order by itself: two edges whose crossing is no line change partners, and pieces
+        // Each end is sorted separately: two edges whose crossing is no line change partners, and pieces
         // never overlap.
         std::vector<double> ends;
         for (const Bound& bound : bounds) {

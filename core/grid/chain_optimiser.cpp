@@ -291,7 +291,8 @@ void ChainOptimiser::begin_descent(const Progress& progress) {
     stage_ = Stage::descent;
 }
 
-/// Each move by itself is not the whole truth: the path as it is run has the last word on each link's best.
+/// The moves taken individually are not the whole truth: the path as it is run has the last word on each
+/// link's best.
 void ChainOptimiser::finish(const Progress& progress) {
     const Grid start = bests_.front().grid;
     const QualityGuard guard(model_, start, direction_, progress);

@@ -1,7 +1,7 @@
 // Adaptation of a grid to the error of a machine by the elliptic functional: the outer loop of
 // (Parasilmongkol 1997, KMITL) ch. 4. Measure the error, make a weight of it, let a solver move the nodes,
 // measure again, until the error no longer changes. All in the parameters (u, v) of one patch, so that a
-// moved node is on the surface by itself.
+// moved node is always on the surface.
 #pragma once
 
 #include "core/grid/elliptic_solver.h"
@@ -44,7 +44,7 @@ struct EllipticAdaptationSettings {
 /// error in mm). Throws Error where it has none.
 using WeightOfError = std::function<WeightPtr(const WeightPtr& error_density)>;
 
-/// What an adaptation of nu x nv nodes takes at most, bytes: to be told before it begins.
+/// What an adaptation of nu x nv nodes takes at most, bytes: to be shown before it begins.
 [[nodiscard]] std::size_t memory_bytes(EllipticMethod method, int nu, int nv);
 
 /// The harmonic map with what cuts the error most (tests/core/toolpath/elliptic_gain_test.cpp).

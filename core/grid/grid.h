@@ -27,7 +27,7 @@ public:
     [[nodiscard]] const NodeArray& array() const { return array_; }
     [[nodiscard]] double min_jacobian() const { return min_corner_jacobian(array_); }
 
-    /// Tracks and nodes a track when followed along `direction`.
+    /// Tracks and nodes per track when followed along `direction`.
     [[nodiscard]] int track_count(TrackDirection direction) const;
     [[nodiscard]] int nodes_per_track(TrackDirection direction) const;
     /// Node `k` of track `t`.

@@ -23,7 +23,7 @@ constexpr std::size_t width = 18;
 constexpr double farthest = 1e9; // what 18 places hold
 constexpr std::string_view folded_cell = "is folded";
 
-/// A number of the file and where it stands.
+/// A number of the file and its position.
 struct Number {
     double value = 0.0;
     int line = 0;

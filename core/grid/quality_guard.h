@@ -13,7 +13,7 @@ inline constexpr double negligible_mm =
     1e-6; ///< a nanometre: rounding on a part of a metre is a tenth of that
 inline constexpr double negligible_rad = 1e-8; ///< a nanometre at 100 mm
 
-/// What the start is worth: its path as it is run (ErrorModel::on_path), and each of its moves by itself.
+/// What the start is worth: its path as it is run (ErrorModel::on_path), and each of its moves individually.
 /// Judged finely.
 class QualityGuard {
 public:

@@ -16,7 +16,7 @@ struct RedistributionSettings {
     friend bool operator==(const RedistributionSettings&, const RedistributionSettings&) = default;
 };
 
-/// sqrt(e) / h of moves about half as long as a mean step of `nodes` a track, h their length in the
+/// sqrt(e) / h of moves about half as long as a mean step of `nodes` per track, h their length in the
 /// parameter, at the middles of `cells` equal cells between `first` and `last`: what a move of the grid will
 /// see, which moves that are much shorter do not. Out of reach counts as none. Scaled to mean 1; all 1 where
 /// there is no error. Throws Cancelled.

@@ -16,7 +16,7 @@ using Tracks = std::vector<MeasuredTrack>;
 
 constexpr std::array quantities{&MoveError::tip, &MoveError::off_surface, &MoveError::param};
 
-/// Whether a version has to be better by itself, or is only one part of a better grid.
+/// Whether a version has to be better on its own, or is only one part of a better grid.
 enum class Judging { by_limits, by_itself };
 
 ErrorSummary summary_of(const std::vector<MoveError>& moves, double MoveError::*quantity) {

@@ -10,7 +10,7 @@ namespace millwright::grid {
 /// Shares are 0 to 1. Values outside their range throw Defect when the optimiser is made.
 struct TrackSettings {
     // The lattice
-    int lattice = 0;             ///< intervals a track, n to 100 000; 0: max(160, 4 n) for n nodes
+    int lattice = 0;             ///< intervals per track, n to 100 000; 0: max(160, 4 n) for n nodes
     double monitor_share = 0.5;  ///< of its density that follows the error, 0 to 0.99
     double longest_move = 4.5;   ///< that is looked at, in mean steps of a track, 1.5 to 100
     double shortest_move = 0.03; ///< the same, 0 to 0.5
@@ -23,7 +23,7 @@ struct TrackSettings {
     double length_share = 0.5;           ///< of the weight of a move that is its length
 
     // What no move shall exceed, as shares of the start's worst move. Where that is not possible, the axis
-    // comes first (each track by itself), then the tip inside that (the same for all tracks).
+    // comes first (per track), then the tip inside that (the same for all tracks).
     double worst_share = 0.12;
     double axis_share = 0.8;
 
@@ -33,11 +33,11 @@ struct TrackSettings {
     friend bool operator==(const TrackSettings&, const TrackSettings&) = default;
 };
 
-/// For live editing: a lattice of 100 intervals (too few for more nodes a track) and no polish. A third of
+/// For live editing: a lattice of 100 intervals (too few for more nodes per track) and no polish. A third of
 /// the time, and all but a few per cent of the gain.
 [[nodiscard]] TrackSettings quick_track_settings();
 
-/// Throws Defect unless every value is in its range for `nodes` a track; `lattice` 0 becomes a number.
+/// Throws Defect unless every value is in its range for `nodes` per track; `lattice` 0 becomes a number.
 [[nodiscard]] TrackSettings checked(TrackSettings settings, int nodes);
 
 /// What a move costs, where an even one has the length `even_length`, mm.

@@ -181,8 +181,8 @@ void Dispatcher::check_position(const Job& job, const drivers::DriverStatus& sta
     }
 }
 
-/// After something went wrong on our side. A machine that does not come to rest by itself is cut off. What
-/// fails here is no reason to leave the log without its end.
+/// After something went wrong on our side. A machine that does not come to rest is cut off. What fails here
+/// is no reason to leave the log without its end.
 void Dispatcher::bring_to_rest() noexcept {
     constexpr double patience = 10.0; // s
     try {
@@ -231,8 +231,8 @@ void Dispatcher::set_optional_stop(bool on) {
     request(LogEvent::optional_stop, on ? "on" : "off", [&] { driver_.set_optional_stop(on); });
 }
 
-/// What a controller would have to find out by moving: read by its own rules, from where it stands. Throws
-/// what is wrong with it; returns where it can lead.
+/// What a controller would have to find out by moving: read by its own rules, from its position. Throws what
+/// is wrong with it; returns where it can lead.
 internal::PositionEnvelope Dispatcher::check(const Job& job,
                                              const drivers::Capabilities& able,
                                              const drivers::DriverStatus& before,

@@ -76,7 +76,7 @@ public:
 private:
     const Job& job_;
     std::vector<Diagnostic>& found_;
-    std::set<char> reported_; ///< once an axis is enough
+    std::set<char> reported_; ///< once per axis is enough
 
     void report(int n, char letter, std::string sentence) {
         const int line = job_.listing->line_of_block[static_cast<std::size_t>(n)];

@@ -16,7 +16,7 @@
 
 namespace millwright::jobs {
 
-/// With machine and program, or with the listing alone: a text that a controller understands by itself.
+/// With machine and program, or with the listing alone: a text that a controller interprets on its own.
 struct Job {
     std::string name;       ///< also of its log file: letters, digits, '-', '_' and '.'
     std::string project;    ///< file or title it comes from

@@ -89,8 +89,8 @@ public:
     /// throws holds the queue too.
     JobOutcome run(QueuedJobId id, const std::function<JobOutcome(const Job&)>& how);
 
-    /// The parts of run(), for who has to be elsewhere meanwhile. Begins: throws Error if the job is not the
-    /// one that comes next, if the queue is held, if a job is running, or if the program was not loaded.
+    /// The parts of run(), for callers that have other work meanwhile. Begins: throws Error if the job is not
+    /// the one that comes next, if the queue is held, if a job is running, or if the program was not loaded.
     [[nodiscard]] Job begin(QueuedJobId id);
     /// What has happened holds even if it cannot be written: then it throws, and whoever reads the file finds
     /// the job held.

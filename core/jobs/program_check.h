@@ -49,7 +49,7 @@ struct ProgramCheck {
     /// Where the machine stands before, mm and rad; only for axes whose place ProgramCheckSettings::start
     /// tells.
     std::array<std::optional<double>, gcode::axis_count> start;
-    bool probes = false;        ///< so that nobody knows beforehand where some of its moves end
+    bool probes = false;        ///< so that the ends of some moves are not known beforehand
     double greatest_feed = 0.0; ///< mm/s, per minute feeds alone
     int greatest_feed_line = 0;
     double greatest_spindle_rpm = 0.0;

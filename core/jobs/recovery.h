@@ -1,4 +1,4 @@
-// What became of jobs, from their logs: also of those whose program was killed, so that nobody wrote how they
+// What became of jobs, from their logs: also of those whose program was killed before it could write how they
 // ended. Nothing here moves anything.
 #pragma once
 
@@ -26,7 +26,7 @@ struct JobStory {
     std::string position_doubt;         ///< as LogRecord has it, of the last record
     std::string sentence;               ///< what is known, for people
 
-    /// Its program was killed, and nobody wrote how it ended.
+    /// Its program was killed before it could write how it ended.
     [[nodiscard]] bool broken_off() const { return !end && !running; }
 };
 

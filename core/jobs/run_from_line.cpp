@@ -92,7 +92,7 @@ public:
     [[nodiscard]] bool left() const { return left_; }
 
 private:
-    std::array<bool, 3> known_{}; ///< X Y Z: where the machine stood at the start, nobody wrote down
+    std::array<bool, 3> known_{}; ///< X Y Z: the position at the start is not recorded
     bool left_ = false;
 };
 
@@ -132,7 +132,7 @@ public:
             feed_ = command.value;
             break;
         case CommandKind::set_feed_mode:
-            by_the_minute_ = command.index != 1; // that of G93 is told as a feed a minute, too
+            by_the_minute_ = command.index != 1; // that of G93 is given as a feed per minute, too
             break;
         case CommandKind::use_length_units:
             use(static_cast<gcode::LengthUnit>(command.index));
@@ -143,7 +143,7 @@ public:
     }
 
     [[nodiscard]] std::optional<double> highest() const { return highest_; }
-    /// The feed a minute of the last way straight down.
+    /// The feed per minute of the last way straight down.
     [[nodiscard]] std::optional<double> plunge() const { return plunge_; }
     [[nodiscard]] bool changed_tool() const { return changed_; }
 
@@ -282,7 +282,7 @@ std::string across(const ModalState& state, std::span<const std::string_view> li
 
 /// Down not faster than the program itself last went straight down.
 double plunge_feed(const ModalState& state, const Watcher& watcher) {
-    constexpr double slow_mm = 100.0; // a minute, where the program's feeds say nothing about it
+    constexpr double slow_mm = 100.0; // per minute, where the program's feeds say nothing about it
     const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
     const bool told = by_the_minute && state.feed_rate > 0.0;
     const double feed = told ? state.feed_rate : slow_mm / mm_of(state.unit);
@@ -298,7 +298,7 @@ void restore_modes(const ModalState& state, double plunge, std::vector<std::stri
         line += " " + drivers::number_word('F', state.feed_rate);
     }
     lines.push_back(line);
-    if (!by_the_minute) { // by itself: with G93 each move names its feed
+    if (!by_the_minute) { // on its own line: with G93 each move names its feed
         lines.emplace_back(state.feed_mode == gcode::FeedMode::inverse_time ? "G93" : "G95");
     }
 }

@@ -35,7 +35,7 @@ struct RunFrom {
 
 /// The approach: modes and tool; Z up to the clearance; the other axes, with spindle and coolant; Z down at
 /// the feed of the program's last way straight down, if that is less than the feed in force. Throws Error
-/// with place and reason where nobody can know what was in force: programs with subroutines, loops or
+/// with place and reason where it is unknown what was in force: programs with subroutines, loops or
 /// parameters; a line within a canned cycle or cutter compensation; after probing, or after the program
 /// itself has changed offsets; no clearance; too few lines above for the approach, whose program is run from
 /// its beginning as easily.

@@ -48,9 +48,9 @@ struct ToolChangePlace {
                                                          const drivers::Capabilities& able,
                                                          const ToolChangePlace& place);
 
-/// What a person has to confirm before a job, because nobody else knows it: which tool is in the spindle,
-/// where the job begins at a line or measures a tool before its first. Empty: nothing. `found` as for
-/// tool_changes().
+/// What a person has to confirm before a job, because it cannot be read from the machine: which tool is in
+/// the spindle, where the job begins at a line or measures a tool before its first. Empty: nothing. `found`
+/// as for tool_changes().
 [[nodiscard]] std::string tool_before_start(const Job& job, const ProgramCheck& found);
 
 } // namespace millwright::jobs

@@ -152,7 +152,7 @@ double beyond(const MachineAxis& axis, double position) {
     return std::max({axis.min - position, position - axis.max, 0.0});
 }
 
-/// Of all turns of `angle`, of which none is inside the limits, the one that is least outside.
+/// Of all turns of `angle`, all of them outside the limits, the one that is least outside.
 double turn_nearest_to_limits(const MachineAxis& axis, double angle) {
     if (!std::isfinite(axis.min) || !std::isfinite(axis.max)) {
         return angle;

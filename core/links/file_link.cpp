@@ -22,7 +22,7 @@ void FileLink::write(std::string_view bytes) {
     const std::scoped_lock lock(mutex_);
     if (out_.is_open() && !failed_) {
         out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        out_.flush(); // a disk that is full is told now, not when nobody listens any more
+        out_.flush(); // a full disk is reported now, not when it is too late
         failed_ = !out_;
     }
 }

@@ -41,7 +41,7 @@ void HostPortLink::close() noexcept {
 
 /// As much as the card takes and gives now.
 void HostPortLink::pump() {
-    constexpr int most = 4096; // characters, so that nobody waits for a card that talks without end
+    constexpr int most = 4096; // characters, so that a card that never stops talking blocks no caller
     const double now = clock_->now();
     for (int n = 0; n < most && !lost_; ++n) {
         const std::uint8_t ready = registers_->read(status_register);

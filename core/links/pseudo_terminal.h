@@ -1,4 +1,4 @@
-// The far end of a serial port that is none: a pseudo-terminal, whose near end programs open like a port.
+// The far end of a simulated serial port: a pseudo-terminal, whose near end programs open like a port.
 #pragma once
 
 #include "core/links/link.h"

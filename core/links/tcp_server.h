@@ -18,7 +18,7 @@ public:
 
     /// Listened on, once open.
     [[nodiscard]] std::uint16_t port() const;
-    /// Who holds it, as 127.0.0.1:40512; empty if nobody does.
+    /// The client that holds it, as 127.0.0.1:40512; empty if there is no client.
     [[nodiscard]] std::string holder() const;
 
     [[nodiscard]] std::string name() const override;
@@ -27,7 +27,7 @@ public:
     void write(std::string_view bytes) override;
     [[nodiscard]] std::string read() override;
     void wait(double seconds) override;
-    /// Clients come and go; the link is lost only when nobody listens any more.
+    /// Clients come and go; the link is lost only when the server no longer listens.
     [[nodiscard]] std::optional<std::string> lost() const override;
     void close() noexcept override;
     [[nodiscard]] int visits() const override;

@@ -28,7 +28,7 @@ struct DriverChoice {
     std::string axes = "XYZ"; ///< of a LinuxCNC, see LinuxCncOptions; of a PMAC: axis 5 is one if B is
     bool one_by_one = false;  ///< Grbl: each line waits for the answer to the last
     double period = 0.01;     ///< of a coordinate stream: s between samples
-    /// Of a coordinate stream: records in place of its own lines. Of a table that takes one record a move:
+    /// Of a coordinate stream: records in place of its own lines. Of a table that takes one record per move:
     /// not given means those of the KMITL thesis, without answers.
     std::optional<drivers::RecordFormat> record = {};
 
@@ -38,7 +38,7 @@ struct DriverChoice {
 /// The machine that is moved position by position, where no controller plans for itself.
 struct MovedAxes {
     std::shared_ptr<const kinematics::MachineModel> model;
-    kinematics::AxisPositions position; ///< where it stands
+    kinematics::AxisPositions position; ///< its position
     double speed = 1.0;                 ///< of those inside this program, see VirtualSpeed
     /// Of a PMAC: whose joints its axes are, in order; none leaves its limits.
     std::shared_ptr<const arm::ArmModel> arm = nullptr;
@@ -48,7 +48,7 @@ struct MovedAxes {
 enum class MachineKind : std::uint8_t {
     simulated,  ///< inside this program; nothing real moves
     controlled, ///< a controller reads G-code
-    positioned, ///< told positions, and tells nothing back; a spindle is switched by hand
+    positioned, ///< given positions, and reports nothing back; a spindle is switched by hand
     arm         ///< joints of an arm
 };
 

@@ -11,8 +11,8 @@ namespace millwright::machine {
 
 namespace {
 
-/// A busy computer may be late with an answer. Meanwhile no sign of life is sent, and the card stops its
-/// motors by itself, so that nothing depends on how long that is waited for.
+/// A busy computer may be late with an answer. Meanwhile no sign of life is sent, and the card's watchdog
+/// stops its motors, so that nothing depends on how long that is waited for.
 constexpr double pmac_patience = 3.0; // s
 
 constexpr std::array<DriverField, 1> pmac_fields{

@@ -19,7 +19,7 @@ public:
     /// All joints at once, in `seconds` or as fast as they can; the tool goes anywhere between. Throws Error
     /// where a joint would leave its limits, Defect for what is not finite.
     void go_to(const arm::JointPositions& joints, double seconds = 0.0);
-    /// The tool along a path that the arm can follow from where it stands, and a joint move to its beginning.
+    /// The tool along a path that the arm can follow from its position, and a joint move to its beginning.
     /// Throws Error with the line in `file` of the first finding, and does nothing.
     void
     follow(const std::vector<arm::ArmWay>& ways, const arm::ArmPath& path, const std::filesystem::path& file);

@@ -26,7 +26,7 @@ enum class Limit : std::uint8_t {
     corner             ///< the speed through a corner, or on its rounding
 };
 
-/// A limit and the axis whose it is, -1 if it is none's.
+/// A limit and the axis that it belongs to, -1 if to no axis.
 struct Cause {
     Limit limit = Limit::standing;
     std::int8_t axis = -1;

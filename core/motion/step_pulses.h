@@ -17,7 +17,7 @@
 namespace millwright::motion {
 
 struct StepSettings {
-    std::vector<double> steps_per_unit;     ///< of each axis: steps a mm or a rad, > 0
+    std::vector<double> steps_per_unit;     ///< of each axis: steps per mm or rad, > 0
     double timer_frequency = 1e6;           ///< Hz
     std::int64_t min_interval = 2;          ///< ticks between two pulses of one axis, >= 1
     double jitter_limit = 0.0;              ///< s: pulses that are off by more are counted; 0: none is

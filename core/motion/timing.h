@@ -1,6 +1,6 @@
 // The way as a function of time. First unfiltered: phases of constant acceleration, which keep every limit
 // but that of jerk. Then filtered: the mean of the unfiltered way over the last `filter_time` seconds, whose
-// acceleration changes by at most 2 * acceleration / filter_time a second. The path stays the same, since
+// acceleration changes by at most 2 * acceleration / filter_time per second. The path stays the same, since
 // only the timing along it is filtered (docs/reference/motion.md#jerk). Scaled units (path.h).
 #pragma once
 

@@ -70,7 +70,7 @@ void Background::work(const std::stop_token& quit) {
             job(Progress([this](const Progress::Report& report) { listen(report); }, stop));
         } catch (const Cancelled&) { // what the job was for is no longer wanted
         }
-        job = nullptr; // what it holds goes before anybody is told that it is over
+        job = nullptr; // what it holds is released before the end is reported
         {
             const std::scoped_lock lock(mutex_);
             working_ = false;

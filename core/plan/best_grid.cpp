@@ -61,7 +61,7 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
             (kept && score(*found) >= score(best))) {
             continue;
         }
-        found->outcome.stages = std::move(best.outcome.stages); // what the chain did stays told
+        found->outcome.stages = std::move(best.outcome.stages); // what the chain did stays in the report
         best = *std::move(found);
         best.outcome.note = fmt::format(
             "On the finished part no stage of the chain is better than \"{}\", so its grid is used.",

@@ -177,7 +177,7 @@ struct ProgramMoves {
     std::vector<int> blocks; ///< one per move
 };
 
-/// But the first: nobody knows where the axes really stand before it.
+/// But the first: the actual positions of the axes before it are unknown.
 ProgramMoves moves_of(const program::Program& program) {
     ProgramMoves found;
     std::optional<kinematics::AxisPositions> at;

@@ -55,12 +55,11 @@ bool paint_weight(project::EllipticInput& input,
 /// Makes what is painted count: mixes the weight, with what it was made of so far, where it is not mixed.
 void let_paint_count(project::EllipticInput& input);
 
-/// What making the grid by `method` takes at most, as a sentence with a figure in MB; empty where nobody
-/// knows.
+/// What making the grid by `method` takes at most, as a sentence with a figure in MB; empty if unknown.
 [[nodiscard]] std::string memory_sentence(project::GridMethod method, const project::GridInput& input);
 
-/// Why that is not begun where so many bytes are `free`: it may take more than half of them. Nothing where it
-/// does not, or nobody knows.
+/// Why that is not begun where `free` bytes are left: it may take more than half of them. nullopt where it
+/// does not, or where that is unknown.
 [[nodiscard]] std::optional<Diagnostic> memory_fault(project::GridMethod method,
                                                      const project::GridInput& input,
                                                      const std::optional<std::size_t>& free);

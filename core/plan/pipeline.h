@@ -1,6 +1,6 @@
 // Derives a Plan from the project in the background: always the newest project, what still holds is kept,
 // what is stale comes coarse first and exact afterwards. Results are immutable and published whole; the owner
-// polls `latest` once a frame. One worker for the plan, one for an adaptation that is watched; all public
+// polls `latest` once per frame. One worker for the plan, one for an adaptation that is watched; all public
 // members are called from the owner's thread and return at once.
 #pragma once
 
@@ -20,7 +20,7 @@ struct Activity {
     bool busy = false;
     double fraction = 0.0; ///< 0 to 1
     std::string text = {};
-    bool stopping = false; ///< nobody wants it any more: it ends with its next check
+    bool stopping = false; ///< no longer needed: it ends with its next check
 };
 
 /// A plan with the project it belongs to. `revision` grows with every publication.

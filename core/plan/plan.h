@@ -105,7 +105,7 @@ inline constexpr Scope Scope::everything{.comparisons = true,
                                          .compared_cuts = true,
                                          .unsequenced = true};
 
-/// What making the grids takes that have 10,000 nodes or more, a sentence each, to be told before it begins.
+/// What making the grids takes that have 10,000 nodes or more, a sentence each, to be shown before it begins.
 [[nodiscard]] std::vector<std::string> memory_sentences(const project::Project& project, const Scope& scope);
 
 /// Throws Error, first with faults_of(project) if there are any, then as expect_memory() for the program's

@@ -76,7 +76,7 @@ gcode::PreviewPath cuts_with(const plot::CutPath& path, int tool) {
 }
 
 std::vector<PlotResult::LevelPath> cuts_by_depth(const plot::CutPath& whole, const Vec2& shift) {
-    constexpr int bands = 16; // more are not told apart
+    constexpr int bands = 16; // more cannot be distinguished
     const double height = plot::deepest(whole) / bands;
     const plot::CutPath path = divided(whole, height);
     std::vector<PlotResult::LevelPath> cuts;

@@ -97,7 +97,7 @@ private:
         if (now.failure) {
             now.program.clear();
         }
-        progress.check(); // nobody wants it any more: what is there stays
+        progress.check(); // no longer needed: what is there stays
         now.finished = true;
         publish(now);
     }

@@ -72,8 +72,8 @@ struct PlotResult {
     std::uint64_t revision = 0;                 ///< grows with every publication
     std::optional<plot::CarvingFigures> carved; ///< of a V-carving
     bool cut_as_drawn = false;                  ///< filling, order and links change nothing
-    /// By the planner, as drawn, s; nothing where it is cut as drawn, where that cannot be run, or where
-    /// there is no program by itself.
+    /// By the planner, as drawn, s; nullopt where it is cut as drawn, where that cannot be run, or where
+    /// there is no automatic program.
     std::optional<double> drawn_seconds;
 
     /// Of the spindle, 1/min: what is set, else the program's, else the usual speed.
@@ -97,7 +97,7 @@ public:
 
     /// Derives everything anew; what is shown stays until something new is there.
     void request(const project::PlotInput& input);
-    /// Of a path that is too long to get one by itself; published as the rest.
+    /// Of a path that is too long to get one automatically; published as the rest.
     void request_program();
     void cancel();
 

@@ -13,7 +13,7 @@ namespace millwright::plan {
 struct ReferenceMesh {
     exchange::TriangleMesh fitted; ///< measured points: without triangles; so is `rest` then
     std::vector<double> deviation; ///< one per point of `fitted`, mm; above zero on the side of the normal
-    double largest = 0.0;          ///< as it is told, without sign
+    double largest = 0.0;          ///< as it is reported, without sign
     exchange::TriangleMesh rest;   ///< other faces of the file, other sides of the mesh
     std::vector<int> faces; ///< number of the face that each triangle of `rest` is of; empty for a mesh
 };

@@ -1,4 +1,4 @@
-// Why the machine does not cut a part where it stands, or anywhere near.
+// Why the machine does not cut a part in its present place, or anywhere near.
 #pragma once
 
 #include "core/plan/set_up_study.h"

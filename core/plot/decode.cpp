@@ -286,7 +286,7 @@ private:
     std::optional<double> fastest_;
     std::vector<Vec3> points_;
     int leads_to_ = -1;                           ///< the point of the path that the next points lead to
-    std::optional<std::vector<int>> path_points_; ///< of each point; of strokes nobody asks
+    std::optional<std::vector<int>> path_points_; ///< of each point; not needed for strokes
 };
 
 void check_decode_settings(double fastest, const DecodeSettings& settings) {

@@ -49,8 +49,8 @@ struct DecodeSettings {
 };
 
 /// The points from `start` (pen up) on, one per period. The end of each segment (mode segments) or stroke
-/// (mode path) is exactly hit. Without strokes and `end` there is `start` alone. Throws Error for a speed,
-/// period or height that is none, and for more points than are allowed.
+/// (mode path) is exactly hit. Without strokes and `end` there is `start` alone. Throws Error for an invalid
+/// speed, period or height, and for more points than are allowed.
 [[nodiscard]] std::vector<Vec3>
 decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start = Vec2::Zero());
 

@@ -87,7 +87,7 @@ private:
         }
     }
 
-    /// The first tool, then up: nobody knows what stands between the tool and the first stroke.
+    /// The first tool, then up: what stands between the tool and the first stroke is unknown.
     void begin_with(const CutPath& path) {
         const bool changes = std::ranges::any_of(
             path, [](const CutPoint& point) { return point.move == CutMove::tool_change; });

@@ -30,7 +30,7 @@ struct WorkTime {
     [[nodiscard]] double distance() const { return cut_length + travel_length; }
 };
 
-/// From `start` through the strokes in their order and back to `end`. Throws Error for a speed that is none.
+/// From `start` through the strokes in their order and back to `end`. Throws Error for an invalid speed.
 [[nodiscard]] WorkTime
 work_time(const Strokes& strokes, const TimeModel& model, const Vec2& start, const Vec2& end);
 

@@ -1,6 +1,6 @@
 // The resistors of a Midi-Maestro servo amplifier (Control Techniques), after Saengsasri, Nittayachin 1996,
-// KMITL, chapter 4. Two of the printed formulas do not give the printed tables: both values are told, with
-// the resistor that the tables fit. Currents A, speeds rpm, tachometer constants V per 1000 rpm.
+// KMITL, chapter 4. Two of the printed formulas do not give the printed tables: both values are reported,
+// with the resistor that the tables fit. Currents A, speeds rpm, tachometer constants V per 1000 rpm.
 #pragma once
 
 #include <optional>

@@ -26,7 +26,7 @@ public:
     Borrowed(const Borrowed&) = delete;
     Borrowed& operator=(const Borrowed&) = delete;
     ~Borrowed() {
-        // Each by itself: in an alarm the kill is refused, and the variables are not. Without a link none
+        // One at a time: in an alarm the kill is refused, and the variables are not. Without a link none
         // goes; the card kills its motors itself then.
         for (const auto& step : give_back_) {
             try {

@@ -17,7 +17,7 @@ enum class PinTrust {
 
 struct PmacPin {
     std::string_view signal;
-    std::array<int, 4> of_motor; ///< pin of motor 1 to 4; 0: not told
+    std::array<int, 4> of_motor; ///< pin of motor 1 to 4; 0: not given
     PinTrust trust = PinTrust::thesis;
     std::string_view note;
 };

@@ -56,7 +56,7 @@ void kill(const CardTalk& card, int motor) {
     try {
         card.ask(fmt::format("#{}K", motor));
     } catch (const Error&) {
-        // What is wrong is about to be told by the one who calls.
+        // What is wrong is about to be reported by the caller.
     }
 }
 
@@ -82,7 +82,7 @@ public:
         try {
             card_.ask("M1023->" + defined_);
         } catch (const Error&) {
-            // The link is gone, and with it who could be told.
+            // The link is gone, so there is nothing left to report to.
         }
     }
 

@@ -27,7 +27,7 @@ struct PreparedProgram {
 /// - feeds stay single blocks, and the tip goes straight where the axes alone would swing it; with a
 ///   `tip_tolerance` (mm, more than 0), for programs that mean the swing, they are cut until it stays so
 ///   near.
-/// Durations of feeds become those that inverse time can say; with feeds a minute they keep their speed in
+/// Durations of feeds become those that inverse time can say; with feeds per minute they keep their speed in
 /// axis positions, their duration in positions of the tip. Feeds too short for the digits are left out; in
 /// inverse time and axis positions one whose linear way is less than 0.1 mm per minute, and than 0.002 mm in
 /// all, is a turn alone, since LinuxCNC would make it faster.

@@ -61,8 +61,8 @@ struct PlaneAxes {
 };
 [[nodiscard]] PlaneAxes plane_axes(const std::vector<program::ProgramAxis>& axes, gcode::Plane plane);
 
-/// The axes of the arc's plane, and those that any of its feeds names. The others are not touched: nobody may
-/// know where they stand.
+/// The axes of the arc's plane, and those that any of its feeds names. The others are not touched: their
+/// positions may be unknown.
 [[nodiscard]] program::AxisSet axes_named(const program::Program& program, const FittedArc& arc);
 
 } // namespace millwright::posts

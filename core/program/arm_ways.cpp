@@ -22,7 +22,7 @@ Frame tool_at(const MachineModel& machine, const AxisPositions& positions, const
     return tool;
 }
 
-/// The first block before which the program has told where the tool is, or the first that cuts.
+/// The first block before which the program has given the tool's position, or the first that cuts.
 int first_known(const Program& program, const MachineModel& machine) {
     AxisSet told;
     const auto known = [&] {

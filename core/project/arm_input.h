@@ -35,7 +35,7 @@ struct ArmInput {
     friend bool operator==(const ArmInput&, const ArmInput&) = default;
 };
 
-/// Turns and moves what is told in a path's coordinates into the arm's base; mm.
+/// Turns and moves what is given in a path's coordinates into the arm's base; mm.
 [[nodiscard]] Frame base_T_path(const PathPlace& place);
 
 } // namespace millwright::project

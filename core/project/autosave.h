@@ -1,5 +1,5 @@
-// Keeps the copy of unsaved work up to date on a thread of its own, so that nobody waits for the disk: at
-// once after the first change, then once an interval at most.
+// Keeps the copy of unsaved work up to date on a thread of its own, so that no caller waits for the disk: at
+// once after the first change, then at most once per interval.
 #pragma once
 
 #include "core/project/recovery.h"
@@ -28,7 +28,7 @@ public:
     void drop();
     /// Blocks until what was asked for stands on disk.
     void wait_idle();
-    /// Why the last write failed; told once.
+    /// Why the last write failed; reported once.
     [[nodiscard]] std::optional<Diagnostic> take_failure();
 
 private:

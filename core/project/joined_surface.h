@@ -24,8 +24,8 @@ struct JoinedSurface {
     double rms_move = 0.0;
 };
 
-/// How far the ends of two sides may be apart that belong together, where nobody says it: a twentieth of the
-/// diagonal of the smallest patch, mm.
+/// How far the ends of two sides may be apart that belong together, where that is not given: a twentieth of
+/// the diagonal of the smallest patch, mm.
 [[nodiscard]] double usual_gap_mm(const SurfaceInput& surface);
 
 /// "0 u = 1 - 1 v = 0": the patches with their sides.

@@ -93,7 +93,7 @@ struct RedistributionInput {
 /// Where the weight of the elliptic adaptation comes from.
 enum class WeightSource { error, expression, mixed, w1, w2, w3, w4 };
 
-/// Rows and columns of what is painted: at most, and where nobody has painted yet.
+/// Rows and columns of what is painted: at most, and where nothing has been painted yet.
 inline constexpr int most_painted = 257;
 inline constexpr int fresh_painted = 65;
 
@@ -120,7 +120,7 @@ struct EllipticInput {
 };
 
 struct TracksInput {
-    int lattice = 0;             ///< places a track to choose from; 0: max(160, 4 n)
+    int lattice = 0;             ///< places per track to choose from; 0: max(160, 4 n)
     double error_exponent = 2.0; ///< p of the cost sum length * error^p
     double axis_weight = 0.0;    ///< mm that one degree of axis deviation counts
     int polish_sweeps = 20;

@@ -1,4 +1,5 @@
-// Tool files: what cuts, by itself, so that several projects can use it. JSON: docs/reference/cutter.md.
+// Tool files: a cutting tool in a file of its own, so that several projects can use it. JSON:
+// docs/reference/cutter.md.
 #pragma once
 
 #include "core/project/tool_input.h"

@@ -21,7 +21,7 @@ struct ToolInput {
     double lead_change_deg = 0.0; ///< up to the end of the track
     double tilt_change_deg = 0.0;
     double scallop_mm = 0.01;    ///< that may be left between tracks
-    double gouge_limit_mm = 0.1; ///< moves that cut deeper than this below the surface are told
+    double gouge_limit_mm = 0.1; ///< moves that cut deeper than this below the surface are reported
 
     friend bool operator==(const ToolInput&, const ToolInput&) = default;
 };

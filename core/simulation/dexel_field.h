@@ -80,7 +80,7 @@ public:
     /// Bytes that are in use now.
     [[nodiscard]] std::size_t bytes() const;
 
-    /// For who removes material. Tiles of one family, the first axis fastest.
+    /// For callers that remove material. Tiles of one family, the first axis fastest.
     [[nodiscard]] std::array<int, 2> tile_count(int k) const;
     [[nodiscard]] Tile& tile(int k, int i, int j);
     [[nodiscard]] const Tile& tile(int k, int i, int j) const;

@@ -18,7 +18,7 @@ namespace millwright::simulation {
 
 struct StockText {
     std::optional<Stock> stock;      ///< nullopt: it is a mesh, which is still to be read
-    std::filesystem::path mesh_file; ///< empty if it is none
+    std::filesystem::path mesh_file; ///< empty if it is no mesh
     Vec3 shift = Vec3::Zero();       ///< of the mesh
 };
 
@@ -28,7 +28,7 @@ struct StockText {
 struct ToolText {
     std::optional<int> number;             ///< of T, where the text begins with N=
     std::optional<toolpath::Profile> body; ///< nullopt: it is a file, which is still to be read
-    std::filesystem::path file;            ///< of a tool; empty if it is none
+    std::filesystem::path file;            ///< of a tool; empty if it is no file
 };
 
 /// Throws Error as parse_stock(). Without a length a tool is as long as five diameters, 50 mm at least.

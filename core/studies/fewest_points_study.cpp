@@ -82,7 +82,7 @@ struct Found {
     grid::MoveError largest;
 };
 
-/// Of tip and axis, each by itself.
+/// Of tip and axis, each separately.
 grid::MoveError largest_of(const grid::ErrorModel& model, const grid::PlacedTrack& placed) {
     grid::MoveError largest;
     for (std::size_t n = 1; n < placed.places.size(); ++n) {

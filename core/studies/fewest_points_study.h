@@ -21,13 +21,13 @@ struct FewestPointsCase {
 struct FewestPointsRow {
     double tolerance = 0.0; ///< largest distance of the true tip from the surface curve, mm
     std::optional<int>
-        uniform; ///< with equal steps on each track; nothing where `most_uniform` a track do not do
+        uniform; ///< with equal steps on each track; nothing where `most_uniform` per track are too few
     std::optional<int> fewest; ///< by grid::fewest_nodes; nothing where its lattice is too coarse
     double largest = 0.0;      ///< of the moves between the fewest, mm
     double largest_axis = 0.0; ///< of the tool axis to the surface normal on them, rad
 };
 
-/// Nodes a track at which equal steps are given up.
+/// Nodes per track at which equal steps are given up.
 inline constexpr int most_uniform = 4000;
 
 /// The points of all tracks together, a row a tolerance (mm, above 0). Parallel over tracks; the same bytes

@@ -16,7 +16,7 @@ enum class StudyMethod {
     redistribution, ///< equal shares of a monitor of the error on each track
     elliptic,       ///< the thesis's adaptation
     harmonic,       ///< the harmonic map with sliding boundary
-    tracks,         ///< the track optimiser: shortest path a track
+    tracks,         ///< the track optimiser: shortest path per track
     chain,          ///< the whole chain
     sequencing,     ///< the same grid, branches and turns chosen for the least error of the whole path
     set_up,         ///< equal parameter steps, the part where the error is least
@@ -40,7 +40,7 @@ inline constexpr std::array every_study_method{StudyMethod::uniform,
 struct StudyCase {
     std::string surface; ///< id of a preset
     std::string machine; ///< id of a shipped machine
-    int points = 0;      ///< nodes a track
+    int points = 0;      ///< nodes per track
     int tracks = 0;
 };
 

@@ -188,7 +188,7 @@ public:
     }
 
 private:
-    static constexpr int raster = 4; // curve points an interval
+    static constexpr int raster = 4; // curve points per interval
 
     [[nodiscard]] const Node& node(int n) const { return nodes_[static_cast<std::size_t>(n)]; }
 

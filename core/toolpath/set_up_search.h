@@ -35,7 +35,7 @@ using SetUpPlace = Eigen::Vector4d;
 struct PlaceFigures {
     double cost = std::numeric_limits<double>::infinity(); ///< mm; infinity where out of reach
     /// Largest angle of the tool axis to the one wanted at the nearest point of the surface curve, rad, at
-    /// ten times a move (MoveError): a tip that leaves that curve is over ground that faces another way.
+    /// ten times per move (MoveError): a tip that leaves that curve is over ground that faces another way.
     /// Nothing out of reach, for SetUpGoal::travel, which measures no error, and on machines that cannot turn
     /// the tool.
     std::optional<double> axis_max = {};

@@ -279,7 +279,7 @@ std::string arm_of_little_roll(const ScratchFolder& scratch) {
     return file;
 }
 
-// The command asked for one roll of all, which nobody had named, and found nothing.
+// The command asked for one roll for all, which had not been given, and found nothing.
 TEST(Arm, TakesAnyRollUnlessOneIsAskedFor) {
     const ScratchFolder scratch;
     const std::string arm = arm_of_little_roll(scratch);

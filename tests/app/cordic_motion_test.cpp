@@ -86,7 +86,7 @@ TEST_F(CordicMotion, OfPulsesThatTheTimerCannotGiveIsRefusedWithTheLine) {
         all.insert(all.end(), {"--timer", "1e5", "--steps", steps});
         return run(all);
     };
-    const Ended late = with("2000"); // 10,000 and 100,000 a second; the timer gives 50,000
+    const Ended late = with("2000"); // 10,000 and 100,000 per second; the timer gives 50,000
     EXPECT_EQ(late.exit_code, 1);
     EXPECT_EQ(late.out, "");
     EXPECT_THAT(late.err,

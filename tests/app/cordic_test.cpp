@@ -379,7 +379,7 @@ TEST(Cordic, SewsAProgramAndSaysWhatComesTooLate) {
     EXPECT_EQ(answer.at("stitches"), 3);
     EXPECT_NEAR(answer.at("period_s").get<double>(), 0.02, 1e-12);
     EXPECT_EQ(answer.at("late_computations"), 0);
-    EXPECT_EQ(answer.at("late_moves"), 1); // 60 mm in 13.3 ms: 13,500 turns a minute of the screw
+    EXPECT_EQ(answer.at("late_moves"), 1); // 60 mm in 13.3 ms: 13,500 turns per minute of the screw
     EXPECT_EQ(answer.at("first_late"), 3); // as the text below counts
     EXPECT_EQ(answer.at("first_late_line"), 4);
     const Ended slow = run({"cordic", "sew", file.string(), "--clock", "1000", "--screw-rpm", "1e5"});

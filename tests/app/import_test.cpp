@@ -232,7 +232,7 @@ TEST_F(ImportCommand, TrianglesBehindThoseThatAMeshCountsAreTold) {
     EXPECT_THAT(nlohmann::json::parse(ended.out).at("notes")[0], HasSubstr(sentence));
 }
 
-// A control point was told of, and no file.
+// A control point was reported, and no file.
 TEST_F(ImportCommand, AMeshThatIsTooFarAwayIsRefusedByItsName) {
     const std::string mesh =
         written("big.obj", "v 0 0 0\nv 200000 0 0\nv 0 10 0\nv 200000 10 1\nf 1 2 4\nf 1 4 3\n");

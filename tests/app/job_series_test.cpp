@@ -124,7 +124,7 @@ TEST_F(Series, AFaultHoldsWhatFollows) {
     EXPECT_THAT(run({"jobs", logs}).out,
                 AnyOf(HasSubstr("send " + a + " --driver grbl --port " + port + " --from-line "),
                       HasSubstr("from the beginning")));
-    ended = send({"--continue"}, "20\n"); // it was switched on anew: nobody knows where the tool is
+    ended = send({"--continue"}, "20\n"); // it was switched on anew: the tool's position is unknown
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("Line 20 could start at the wrong position"));
     EXPECT_FALSE(fs::exists(logs + "/a-0002.jsonl"));
@@ -175,7 +175,7 @@ TEST_F(Series, AProgramThatCannotBeHadAgainIsLeftOutIfAPersonSaysSo) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("b.ngc"));
     EXPECT_EQ(queue(), "a done b waiting c waiting ");
-    ended = send({"--continue", "--yes"}, "s\n"); // nobody is asked
+    ended = send({"--continue", "--yes"}, "s\n"); // no question is asked
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("b.ngc"));
     ended = send({"--continue"}, "s\ny\n");

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 
 class JoinCommand : public ScratchFiles {
 protected:
-    /// A bicubic strip from x = `from`, 40 mm wide, that rises by `slope` mm a mm from `height`.
+    /// A bicubic strip from x = `from`, 40 mm wide, that rises by `slope` mm per mm from `height`.
     [[nodiscard]] std::string strip(const std::string& name, double from, double height, double slope) const {
         nlohmann::json points = nlohmann::json::array();
         for (int i = 0; i < 4; ++i) {

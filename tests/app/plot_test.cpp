@@ -79,7 +79,8 @@ Told told_by_gcode_time(const std::string& out) {
 }
 
 // What it says of its path is what the program does, which `gcode time` reads back, the way to its beginning
-// as well: with corners that are rounded as the control is told, or followed exactly by one that is not.
+// as well: with corners that are rounded as the control is configured to, or followed exactly by one that is
+// not.
 TEST(PlotCommand, ToolpathIsAsLongAndTakesAsLongAsItsProgram) {
     const ScratchFolder folder;
     const std::string line = (folder / "line.plt").string();

@@ -139,7 +139,7 @@ TEST_F(Pmac, WaitsForWhatACommandSetsGoingAndTakesNoEndlessJog) {
     EXPECT_EQ(run({"pmac", "#1P", "--port", port}).out, stopped);
 }
 
-// F2: nobody watches over motors whose program has ended.
+// F2: motors are not monitored once the program has ended.
 TEST_F(Pmac, MotorsKeepNoPowerThatNobodyAskedToKeep) {
     Emulator emulator(port, {"--wait-for-host", "0.01"}, "pmac");
     const auto has_power = [&] { // loop closed, amplifier enabled: bit 14 of the second word

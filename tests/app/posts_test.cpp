@@ -123,7 +123,7 @@ TEST_F(Posts, ConvertPutsTheZeroOfAProgramWhereItFits) {
     EXPECT_NE(run(moved).exit_code, 0);
 }
 
-/// At the machine nobody sees the warning on standard error.
+/// At the machine the warning on standard error is not seen.
 TEST_F(Posts, AProgramOfMachinePositionsSaysSoAtItsTopForEveryPost) {
     write_content(part, "G21 G90\nS1000 M3\nG0 X1 Y1 Z5\nG1 Z-1 F100\nG53 G0 Z0\nM2\n");
     int posts = 0;
@@ -142,7 +142,7 @@ TEST_F(Posts, AProgramOfMachinePositionsSaysSoAtItsTopForEveryPost) {
     EXPECT_GE(posts, 4);
 }
 
-/// A cycle keeps to the exact path by itself; G61 was written for all and a change reported.
+/// A cycle always keeps to the exact path; G61 was written for all and a change reported.
 TEST_F(Posts, ACannedCycleChangesNoPathMode) {
     write_content(part, "G21 G90\nG0 Z5\nG81 X1 Y1 Z-1 R2 F100\nG80\nG0 X9\nM2\n");
     Ended ended = convert("router-xyz", "linuxcnc-xyz");
@@ -215,7 +215,7 @@ TEST_F(Posts, ConvertKeepsTheDiametersOfTools) {
     EXPECT_THAT(ended.out, testing::StartsWith("(T1 D=6.)\n(T2 D=3.175)\n"));
 }
 
-/// A retract to a reference point that nobody stored never goes down; a parameter file says where it is.
+/// A retract to a reference point that is not stored never goes down; a parameter file says where it is.
 TEST_F(Posts, ConvertTakesWhatTheControllerRemembersFromAFile) {
     write_content(part, "G21 G90\nG0 X0 Y0 Z5\nG1 X9 F300\nG28 G91 Z0\nM2\n");
     const std::string remembered = (scratch / "linuxcnc.var").string();

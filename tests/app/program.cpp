@@ -124,7 +124,7 @@ void Program::send(int signal) const {
 
 void Program::type(const std::string& keys) const {
     if (::write(in_, keys.data(), keys.size()) != static_cast<ssize_t>(keys.size())) {
-        throw std::runtime_error("nobody takes the keys");
+        throw std::runtime_error("the program does not take the keys");
     }
 }
 

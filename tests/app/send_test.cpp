@@ -166,7 +166,7 @@ TEST_F(Send, NamesTheProgramThatHoldsTheSerialPort) {
                           std::to_string(first.pid()) + ")"));
     first.send(SIGINT);
     EXPECT_EQ(first.end().exit_code, 1);
-    EXPECT_EQ(last_record(logs).at("end"), "cancelled"); // by us, and by nobody else before
+    EXPECT_EQ(last_record(logs).at("end"), "cancelled"); // by us, and by nothing else before
 }
 
 TEST_F(Send, RefusesWhatIsLongerThanAMachineWithoutHoming) {
@@ -292,7 +292,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     write_content(file, zigzag(3000));
     Emulator emulator(port, {"--speed", "5"});
     auto trusting = words();
-    trusting.emplace_back("--trust-position"); // somebody has looked where it stands
+    trusting.emplace_back("--trust-position"); // somebody has checked its position
     Program sender(trusting);
     sender.wait_for_error_text("Block ");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
@@ -310,7 +310,7 @@ TEST_F(Send, LeavesALogThatTellsTheTruthWhenItIsKilled) {
     EXPECT_LT(allowed, 3003);
     EXPECT_THAT(run({"jobs", logs}).out,
                 HasSubstr("the next " + std::to_string(allowed - executed) + " may have been as well"));
-    // The controller executes what it has and then stands still; nothing starts again by itself.
+    // The controller executes what it has and then stands still; nothing starts again automatically.
     const int next = jobs[0].at("next_line");
     Ended rest;
     for (int n = 0; n < 50; ++n) {
@@ -361,7 +361,7 @@ TEST_F(Send, AnotherCommandStopsWhatAKilledOneLeftMoving) {
     EXPECT_EQ(run(words()).exit_code, 0);
 }
 
-/// Each command is a program of its own: what one has seen the next has to be told by the disk.
+/// Each command is a program of its own: what one has seen the next has to read from the disk.
 TEST_F(Send, RemembersThatThePositionMayBeLostUntilSomebodyHasLooked) {
     write_content(file, zigzag(300));
     Emulator emulator(port, {"--speed", "20", "--faults", "reset=2000"});
@@ -454,7 +454,7 @@ TEST_F(Send, PlansAFileForAMachineAndWaitsAtItsStops) {
     EXPECT_THAT(content_of(stream), testing::EndsWith("30.0000 0.0000 0.0000\n"));
 }
 
-// The offset of a work system that nobody gave was 0: the retract went down to Z0 of the work.
+// The offset of a work system that was not given was 0: the retract went down to Z0 of the work.
 TEST_F(Send, PlansNoPositionsThatNobodyCanKnow) {
     write_content(file, "G21 G90\nG0 X1 Y1 Z50\nG1 Z40 F3000\nG53 G0 Z60\nM2\n");
     const std::string stream = (scratch / "stream.txt").string();

@@ -95,7 +95,7 @@ TEST_F(Streams, NobodyIsAskedWhereTheQuestionCannotBeRead) {
     const Ended ended = Program(twice, "y\n", {"sh", "-c", "\"$0\" \"$@\" >/dev/full"}).end();
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("cannot ask for input"));
-    EXPECT_FALSE(fs::exists(fs::path(logs) / "way-0002.jsonl")) << "nobody said that it may begin";
+    EXPECT_FALSE(fs::exists(fs::path(logs) / "way-0002.jsonl")) << "its start was not confirmed";
 }
 
 TEST_F(Streams, HelpThatCannotBePrintedFails) {

@@ -240,7 +240,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
         points += at + "," + at + ",0.00\n";
     }
     write_content(folder / "diagonal.txt", points);
-    Emulator table(port, {}, "table"); // neither is told a record: both mean the same
+    Emulator table(port, {}, "table"); // neither is given a record: both mean the same
     const std::string log = (folder / "jobs").string();
     const Ended played = run({"plot",
                               "play",
@@ -272,7 +272,7 @@ TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {
                                "--log",
                                log});
     EXPECT_EQ(unknown.exit_code, 0) << unknown.err;
-    // Nobody answered, so that nothing is known to be executed.
+    // There was no answer, so that nothing is known to be executed.
     const std::string sent = run({"jobs", log}).out;
     EXPECT_THAT(sent, HasSubstr("36 of 36 blocks were sent."));
     EXPECT_THAT(sent, testing::Not(HasSubstr("executed")));
@@ -331,7 +331,7 @@ TEST(TableCommand, AnAnswerThatComesTwiceEndsTheJobBeforeTheNextRecord) {
     EXPECT_THAT(table.stop().out, HasSubstr("4 records executed"));
 }
 
-// Z is told with the velocity that is too high for it, and which option lowers it.
+// Z is reported with the velocity that is too high for it, and which option lowers it.
 TEST(TableCommand, PointsThatAreTooFastUpAndDownSayWhatToDo) {
     const ScratchFolder folder;
     write_content(folder / "fast.csv", "0,0,5.00\n0,0,4.50\n");

@@ -1,5 +1,5 @@
-// Any text is assembled or told wrong; what is assembled comes back the same from the disassembler, and runs
-// without leaving a defined state.
+// Any text is assembled or reported as wrong; what is assembled comes back the same from the disassembler,
+// and runs without leaving a defined state.
 #include "core/base/error.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/disassembler.h"

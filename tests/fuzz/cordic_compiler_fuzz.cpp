@@ -1,4 +1,5 @@
-// Any G-code compiles for the CORDIC processor or is told wrong, and what compiles runs to a defined end.
+// Any G-code compiles for the CORDIC processor or is reported as wrong, and what compiles runs to a defined
+// end.
 #include "core/cordic/processor.h"
 #include "core/cordic_machine/cordic_program.h"
 #include "core/gcode/interpreter.h"

@@ -1,4 +1,4 @@
-// Any text is a microprogram or told wrong; any microprogram runs without leaving a defined state.
+// Any text is a microprogram or reported as wrong; any microprogram runs without leaving a defined state.
 #include "core/cordic/microcode.h"
 #include "core/cordic/microprogram.h"
 #include "core/cordic/processor.h"

@@ -1,4 +1,4 @@
-// Any logic assembles or is told wrong, and what assembles runs beside the processor to a defined end.
+// Any logic assembles or is reported as wrong, and what assembles runs beside the processor to a defined end.
 #include "core/cordic/assembler.h"
 #include "core/cordic_control/plc_assembler.h"
 #include "core/cordic_control/supervised_run.h"

@@ -74,7 +74,7 @@ ProgramRun OracleTest::run_other(const std::string& program,
     }
     const int status = pclose(pipe);
     if (!WIFEXITED(status)) {
-        throw std::runtime_error(command + " did not end by itself:\n" + run.output);
+        throw std::runtime_error(command + " did not exit normally:\n" + run.output);
     }
     run.exit_code = WEXITSTATUS(status);
     return run;

@@ -97,8 +97,8 @@ public:
     [[nodiscard]] MachineConnection& connection() { return *connection_; }
     /// To the machine that the view state names.
     void connect();
-    /// Before a frame is drawn: stops a jog that nobody can be holding any more. `held`: a mouse button, a
-    /// key or a bumper of the jog is down.
+    /// Before a frame is drawn: stops a jog that can no longer be held. `held`: a mouse button, a key or a
+    /// bumper of the jog is down.
     void watch_jog(bool held, bool focused);
     /// As it is in this frame; nothing where none is connected.
     void see_gamepad(const std::optional<render::Gamepad>& gamepad) { gamepad_ = gamepad; }
@@ -269,7 +269,7 @@ private:
     std::optional<Leaving> leaving_;
     std::optional<std::filesystem::path> received_; ///< waits until nothing is asked
     std::vector<project::LeftBehind> left_behind_;
-    std::optional<Document> kept_; ///< what the autosave was last told: the file, the unsaved state
+    std::optional<Document> kept_; ///< what the autosave was last given: the file, the unsaved state
     std::unique_ptr<project::Autosave> autosave_; ///< null if no copies are kept
     std::unique_ptr<plan::Pipeline> pipeline_;
     std::unique_ptr<plan::ProgramReader> reader_;
@@ -295,11 +295,11 @@ private:
     std::optional<bool> writes_plot_;          ///< its program is awaited: and goes to the machine
     /// The view was fitted to it.
     std::weak_ptr<const project::ImportSource> fitted_import_{};
-    std::uint64_t followed_import_ = 0; ///< revision whose failure was told
+    std::uint64_t followed_import_ = 0; ///< revision whose failure was reported
     std::uint64_t followed_plot_ = 0;   ///< revision of the plot whose program was opened
     bool arm_failed_ = false;           ///< the arm that ships could not be read
-    std::optional<int> settings_sent_;  ///< the card's answer to them is still to be told
-    bool tells_of_file_ = false;        ///< it is being read: how that ended is still to be told
+    std::optional<int> settings_sent_;  ///< the card's answer to them is still to be reported
+    bool tells_of_file_ = false;        ///< it is being read: how that ended is still to be reported
     bool follows_job_ = false;          ///< a job was running when it was last looked at
     std::filesystem::path gcode_;       ///< opened by a person; empty: none
     StartAt gcode_begin_;               ///< of its job, while the plot's program has its place

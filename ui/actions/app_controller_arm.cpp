@@ -80,7 +80,7 @@ void tell_findings(ViewState& view_state, const std::vector<Diagnostic>& found, 
 
 } // namespace
 
-/// It has an arm once it is looked at; a connected one is drawn where it stands.
+/// It has an arm once it is looked at; a connected one is drawn at its position.
 bool AppController::follow_arm(double seconds) {
     if (view_state_.workspace == Workspace::arm && !arm_->loaded() && !arm_failed_) {
         arm_failed_ = true; // said once

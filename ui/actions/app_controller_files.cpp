@@ -169,8 +169,8 @@ void AppController::cancel_work() {
     writes_plot_.reset();
 }
 
-/// The file's motion and the project's each keep their time; and a person is told once what is wrong with the
-/// file.
+/// The file's motion and the project's each keep their time; and what is wrong with the file is reported
+/// once.
 void AppController::follow_file() {
     if (const bool in_file = look().in_file(); in_file != view_state_.file.plays_file) {
         view_state_.playback.playing = false;
@@ -297,8 +297,7 @@ void AppController::choose_color(render::LayerColor which, const std::optional<g
 void AppController::quit() {
     leave("close Millwright", [](AppController& app) {
         MachineConnection& connection = app.connection();
-        bool unsure =
-            false; // a card that did not tell that its motors have no power is told of in the window
+        bool unsure = false; // a card that did not report its motors as off is shown in the window
         if (arm_under_power(connection.view())) {
             connection.disconnect();
             connection.wait_idle();

@@ -23,7 +23,8 @@ void AppController::open_surface(const fs::path& file) {
     remember(file);
 }
 
-/// The view is fitted to what comes; what is wrong with a file is told once, and an unread one is given up.
+/// The view is fitted to what comes; what is wrong with a file is reported once, and an unread one is given
+/// up.
 void AppController::follow_import() {
     if (const auto written = export_->take_news()) {
         if (written->failure) {

@@ -41,7 +41,7 @@ struct Approach {
     ApproachWish wish;
     std::optional<jobs::Job> job;      ///< nothing where it is refused
     std::vector<std::string> lines;    ///< that come before the line, in their order
-    std::optional<Diagnostic> refusal; ///< why nobody may begin there
+    std::optional<Diagnostic> refusal; ///< why a job may not begin there
 };
 
 /// Throws nothing: what is wrong is the refusal.

@@ -29,7 +29,7 @@ namespace millwright::actions {
 struct ArmSolution {
     arm::JointPositions joints;
     std::string branch;          ///< "front, elbow up"; of other arms than the L-3's kind empty
-    double farthest_turn = 0.0;  ///< of a joint from where it stands, rad
+    double farthest_turn = 0.0;  ///< of a joint from its position, rad
     double farthest_slide = 0.0; ///< mm, of a joint that slides
 };
 
@@ -160,8 +160,8 @@ public:
     /// A program on the part that stands there is looked at, in the background; none: nothing is. The joints
     /// of the wish are those of now.
     void look_at_path(std::optional<ArmPathWish> wish);
-    /// Works out the motion of the path that is looked at; what comes of it is told by take_path_motion().
-    /// `of_card`: it is a connected arm that shall go it, not the drawn one.
+    /// Works out the motion of the path that is looked at; take_path_motion() reports the result. `of_card`:
+    /// it is a connected arm that shall go it, not the drawn one.
     void want_path_motion(bool of_card);
     void call_off_path_motion() { wants_path_motion_ = false; }
     [[nodiscard]] bool path_motion_is_of_card() const { return of_card_; }

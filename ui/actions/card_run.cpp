@@ -36,8 +36,7 @@ void CardRun::begin(CardPlan plan) {
 
 void CardRun::follow(const drivers::DriverStatus& status, double seconds) {
     const bool under_way = is_under_way(status);
-    waited_ +=
-        under_way || seen_ ? 0.0 : seconds; // what is told of the machine may be older than the program
+    waited_ += under_way || seen_ ? 0.0 : seconds; // what the machine reported may be older than the program
     seen_ = seen_ || under_way;
     if (plan_ && !under_way && (seen_ || waited_ > longest_wait)) {
         const bool well = status.state == drivers::DriverState::idle;

@@ -34,7 +34,7 @@ public:
     /// Of the program that was begun: where the driver's axes are at a time of the plan, as
     /// DriverStatus::position.
     void know_way(std::function<kinematics::AxisPositions(double)> at) { at_ = std::move(at); }
-    /// `seconds` went by since it was last told.
+    /// `seconds` went by since the last report.
     void follow(const drivers::DriverStatus& status, double seconds);
     /// Nothing while none of these programs is under way.
     [[nodiscard]] const std::optional<CardPlace>& place() const { return place_; }
@@ -48,7 +48,7 @@ private:
 
     std::optional<CardPlan> plan_;                        ///< of what is under way
     std::function<kinematics::AxisPositions(double)> at_; ///< empty: not known
-    bool seen_ = false;                                   ///< it was told to be
+    bool seen_ = false;                                   ///< it was reported as under way
     double waited_ = 0.0;                                 ///< s for that
     double elapsed_ = 0.0;                                ///< s of the plan
     std::optional<CardPlace> place_, broken_off_;

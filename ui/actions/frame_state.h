@@ -111,7 +111,7 @@ struct FrameState {
     [[nodiscard]] std::string gouge_warning() const;
     /// Of the plan: why it stops short of a program; empty if it does not.
     [[nodiscard]] std::string failure() const;
-    /// Something is asked or told over everything else; only the machine listens to keys meanwhile.
+    /// A question or a message is shown over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
         return view_state.file_prompt != FilePrompt::none || view_state.replacing ||
                view_state.gouges_asked || view_state.start || view_state.help != HelpPage::none ||

@@ -25,7 +25,7 @@ void HoldToRunJog::renew(const JogWish& wish) {
     jog.way = wish.direction * (wish.speed * seconds_ahead);
     jog.speed = wish.speed;
     jog.dead_man = dead_man_for(frame_);
-    moving_ = true; // also if the driver refuses: it is told to stop then
+    moving_ = true; // also if the driver refuses: it is stopped then
     connection_.tell([&](drivers::Driver& driver) { driver.jog(jog); });
 }
 

@@ -30,8 +30,8 @@ public:
     static constexpr double longest_dead_man = 0.25;
     /// For a window whose slowest frame of late took `frame`, s.
     [[nodiscard]] static double dead_man_for(double frame);
-    /// A slow frame interrupts a jog that is still held; a window that has hung for so long begins nothing
-    /// anew by itself, s.
+    /// A slow frame interrupts a jog that is still held; a window that has hung for longer than this does not
+    /// start one again automatically, s.
     static constexpr double longest_frame = 0.5;
 
     explicit HoldToRunJog(MachineConnection& connection) : connection_(connection) {}

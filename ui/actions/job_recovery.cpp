@@ -9,7 +9,7 @@ namespace millwright::actions {
 JobRecovery::JobRecovery(std::filesystem::path folder, std::function<void()> wake)
     : thread_([this, folder = std::move(folder), wake = std::move(wake)] { look(folder, wake); }) {}
 
-/// A log that cannot be read is nobody's question at the start; `millwright jobs` names it.
+/// A log that cannot be read is no reason to ask at the start; `millwright jobs` names it.
 void JobRecovery::look(const std::filesystem::path& folder, const std::function<void()>& wake) {
     Stories found = jobs::read_job_folder(folder).jobs;
     std::erase_if(found, [](const jobs::JobStory& story) { return !story.broken_off() || story.seen; });

@@ -53,7 +53,7 @@ public:
         const std::scoped_lock lock(mutex_);
         return busy_ || wish_;
     }
-    /// How far what is being done has come, as it tells; nothing told yet: 0 and no text.
+    /// How far what is being done has come, as it tells; nothing reported yet: 0 and no text.
     [[nodiscard]] Progress::Report report() const {
         const std::scoped_lock lock(mutex_);
         return report_;
@@ -84,7 +84,7 @@ private:
                 found = std::make_shared<const Answer>(work_(
                     *wish,
                     Progress([this](const Progress::Report& now) { listen(now); }, present.get_token())));
-            } catch (const Cancelled&) { // nobody wants it any more
+            } catch (const Cancelled&) { // no longer needed
             }
             {
                 const std::scoped_lock lock(mutex_);

@@ -43,8 +43,8 @@ Permission machine_ready(const FrameState& now) {
     return at_rest(now.connection);
 }
 
-/// A line in the middle is gone to by what the controller takes for its position; a machine that is told
-/// where it stands goes everywhere by that.
+/// A line in the middle is approached from what the controller takes for its position; a machine whose
+/// position is entered by hand makes every move from that position.
 Permission position_ready(const FrameState& now, int from_line) {
     const std::string& doubt = now.connection.status.position_doubt;
     if (now.connection.connected() && now.connection.can.told_place) {

@@ -91,7 +91,7 @@ void MachineConnection::connect(const machine::DriverChoice& choice,
     machine::MovedAxes axes{std::move(model), {}, 1.0, std::move(arm)};
     if (axes.model) {
         axes.position = resting_place(*axes.model);
-        axes.known = false; // nobody has looked
+        axes.known = false; // not checked yet
     }
     enqueue([this, choice, axes = std::move(axes)] {
         drop();

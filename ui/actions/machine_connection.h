@@ -44,7 +44,7 @@ struct ConnectionView {
     [[nodiscard]] const machine::DriverRow& row() const { return machine::driver_row(choice.driver); }
 };
 
-/// What the connected machine refuses, or says of itself: told as long as it is in that state.
+/// What the connected machine refuses, or says of itself: shown as long as it is in that state.
 class MachineError final : public Error {
 public:
     explicit MachineError(const Error& of_driver) : Error(of_driver.diagnostic()) {}

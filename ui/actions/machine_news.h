@@ -1,5 +1,5 @@
-// What the connected machine has to say once, whoever looks at the time: it goes into the log, and what a
-// person has to know before anything moves is told.
+// What the connected machine reports once, whoever looks at the time: it goes into the log, and what a person
+// has to know before anything moves is shown.
 #pragma once
 
 #include "core/pmac/driver/pmac_file.h"
@@ -21,7 +21,7 @@ public:
                 ViewState& view_state);
     /// A file of settings went to the card, whose answer has the number `answer`.
     void sent(int answer, pmac::PmacFile file);
-    /// Of the connected card, a sentence for each; as it told last.
+    /// Of the connected card, a sentence for each; as last reported.
     [[nodiscard]] const std::vector<std::string>& protections_off() const { return protections_off_; }
 
 private:

@@ -67,7 +67,7 @@ public:
     /// Where the tool of the table is that what is open is played to, mm; afterwards, where it was left,
     /// until the timeline, at `timeline_s`, goes elsewhere.
     [[nodiscard]] std::optional<Vec3> table_tip(double timeline_s) const;
-    /// Of a path that is too long to get its program by itself.
+    /// Of a path that is too long to get its program automatically.
     void make_program() { worker_.request_program(); }
     /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.
     [[nodiscard]] std::filesystem::path write_program(const std::filesystem::path& folder) const;

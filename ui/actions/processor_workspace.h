@@ -39,7 +39,7 @@ struct ProcessorChoice {
 
 enum class ProcessorStep : std::uint8_t { clock, micro_instruction, instruction, block, set_point };
 
-/// An instruction, or a byte that is none.
+/// An instruction, or a byte that is not an instruction.
 struct CodeRow {
     cordic::CodeAddress address = 0;
     std::string text;
@@ -84,7 +84,7 @@ public:
     [[nodiscard]] std::span<const cordic::PathDifference> differences() const { return whole_.differences(); }
     /// The same run, each of its set-points being a stitch.
     [[nodiscard]] const cordic::StitchTiming& sewing() const { return whole_.sewing(); }
-    /// The rest of that run is still worked out: what is told of it is a part.
+    /// The rest of that run is still worked out: what is reported of it is a part.
     [[nodiscard]] bool follows() const { return whole_.goes_on(); }
     /// Until it is; advance() then takes it.
     void wait_idle() const { whole_.wait_idle(); }

@@ -12,7 +12,7 @@ namespace {
 
 using widgets::Permission;
 
-/// Also of a part that is out of reach where it stands: another place may help.
+/// Also of a part that is out of reach in its present place: another place may help.
 Permission can_search(const FrameState& now) {
     return now.plan && now.plan->plan.cutting_setup
                ? Permission{}

@@ -173,7 +173,7 @@ void ArmPanel::draw_joints(Ui& ui, const FrameState& now, ActionQueue& ask) cons
         (void)widgets::banner(ui,
                               "not_known",
                               {widgets::Severity::warning,
-                               now.connection.status.velocity.size() == 0 // as last told
+                               now.connection.status.velocity.size() == 0 // as last reported
                                    ? "Position unknown: these are the last angles that the card reported, "
                                      "and the arm may have moved since. Inspect the arm."
                                    : "Position unknown: these angles are relative to the pose at which the "
@@ -290,7 +290,7 @@ void ArmPanel::draw_solutions(Ui& ui, const FrameState& now, ActionQueue& ask) c
             ui, "reason", {widgets::Severity::warning, as_sentence(workspace.reason()), {}});
         return;
     }
-    // Of any joint from where it stands.
+    // Of any joint from its position.
     constexpr std::array<widgets::Column, 2> turning{
         {{"Solution", {}, 1.6F}, {"Max. travel", "\u00b0", 1.0F, true}}};
     constexpr std::array<widgets::Column, 3> sliding{

@@ -289,7 +289,7 @@ void ConnectionPanel::draw_messages(Ui& ui, const FrameState& now, ActionQueue& 
 void ConnectionPanel::draw_state(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const actions::ConnectionView& machine = now.connection;
     const DriverChoice& chosen =
-        now.view_state.manual.choice; // a link that nobody wants any more is not told of
+        now.view_state.manual.choice; // a link that is no longer wanted is not reported
     const bool is_of_it = machine.link != LinkState::none || (machine.choice.driver == chosen.driver &&
                                                               machine.choice.address == chosen.address);
     if (machine.failure && is_of_it) {

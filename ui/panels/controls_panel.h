@@ -1,4 +1,4 @@
-// What else a connected machine can be told: homing and probing, overrides, spindle and coolant.
+// The other commands for a connected machine: homing and probing, overrides, spindle and coolant.
 #pragma once
 
 #include "ui/panels/panel.h"

@@ -24,10 +24,10 @@ public:
     void frame();
     /// The same with this input in place of the real one.
     void frame(const render::InputState& input);
-    /// The same, except that what ImGui has to draw is not drawn: for a frame whose picture nobody looks at.
+    /// The same, except that what ImGui has to draw is not drawn: for a frame that is not shown.
     void frame_unseen(const render::InputState& input);
 
-    /// Seconds until the picture changes by itself; empty: only when something happens.
+    /// Seconds until the picture changes without input; empty: only when something happens.
     [[nodiscard]] std::optional<double> next_change() const;
 
     [[nodiscard]] widgets::Ui& ui() { return *ui_; }

@@ -39,7 +39,7 @@ struct FileFilter {
 /// Hidden files are left out.
 [[nodiscard]] FolderListing
 listed(const std::filesystem::path& folder, const FilePromptRow& asked, const FileFilter& filter);
-/// Of a file or folder by itself; of one that is gone without size and date.
+/// Of a single file or folder; of one that is gone without size and date.
 [[nodiscard]] FolderEntry entry_of(const std::filesystem::path& path);
 
 /// "project", "G-code", "window settings" ...; empty for a file of no kind that is known. Looks into .json

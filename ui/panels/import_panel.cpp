@@ -313,7 +313,7 @@ void import_panel(Ui& ui, const FrameState& now, ActionQueue& ask, const actions
         ui.value("name", "File", now.import.file().filename().string());
     }
     ui.gap();
-    if (now.activity.busy && now.import.activity().busy) { // told as the status bar tells it
+    if (now.activity.busy && now.import.activity().busy) { // shown as in the status bar
         if (ui.progress("work", now.activity.text, now.activity.fraction)) {
             ask.run("work.cancel");
         }

@@ -13,8 +13,8 @@ class JogGate {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Keys that are held while a window gets the keyboard back are told late, as if they were pressed then:
-    /// so long nothing may be held, s.
+    /// Keys that are held while a window gets the keyboard back are reported late, as if they were pressed
+    /// then: for this long nothing may be held, s.
     static constexpr double quiet = 0.5;
     static constexpr int quiet_frames = 3; ///< and so many frames, which may be slow
 

@@ -51,8 +51,8 @@ std::size_t end_of_address(std::string_view text, std::size_t at) {
     return end == std::string_view::npos ? at : end;
 }
 
-/// Where the page stands that `address` leads to from one in `folder`: "docs/reference/pmac.md". Empty for a
-/// place of the same page, and where no folder is told.
+/// The page that `address` leads to from one in `folder`: "docs/reference/pmac.md". Empty for a place of the
+/// same page, and where no folder is given.
 std::string linked_page(std::string_view address, std::string_view folder) {
     const std::string_view file = address.substr(0, address.find('#'));
     if (folder.empty() || file.empty()) {

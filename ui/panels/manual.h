@@ -10,7 +10,7 @@
 namespace millwright::panels {
 
 /// What its Markdown says, without marks: pictures not at all, links by their words and the page that they
-/// lead to, whose place is told from `folder`, that of this page; without one by their words alone.
+/// lead to, whose place is given from `folder`, that of this page; without one by their words alone.
 [[nodiscard]] std::vector<widgets::ReadingBlock> reading_of(std::string_view markdown,
                                                             std::string_view folder = {});
 

@@ -5,7 +5,8 @@
 
 namespace millwright::panels {
 
-/// It is connected and does not tell, and nobody has said it, or what was said is in doubt.
+/// It is connected and does not report its position, and that has not been entered, or what was entered is in
+/// doubt.
 [[nodiscard]] bool needs_manual_position(const actions::ConnectionView& machine);
 
 void manual_position_fields(Ui& ui, const FrameState& now, ActionQueue& ask);

@@ -160,7 +160,7 @@ std::string axis_text(const std::optional<double>& axis_max) {
     return axis_max ? angle_text(*axis_max) : std::string("-");
 }
 
-/// That the best place lies at the edge of what was searched, as long as that can be told.
+/// That the best place lies at the edge of what was searched, as long as that is known.
 std::string edge_text(const FrameState& now, const plan::SetUpResult& found) {
     if (!now.plan || !now.plan->plan.cutting_setup || !plan::same_but_for_place(found.project, now.project)) {
         return {};

@@ -228,7 +228,7 @@ void obey(const viewport::CloseOutline&, const FrameState& now, ActionQueue& ask
     ask.edit("Draw the adaptation region", close);
     Project drawn = now.project;
     close(drawn);
-    if (faults_of(drawn).empty()) { // else it is told why not, and the corners stay
+    if (faults_of(drawn).empty()) { // else the reason is shown, and the corners stay
         ask.show([](ViewState& view_state) { view_state.surface_tool.draft.clear(); });
     }
 }

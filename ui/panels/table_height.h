@@ -7,8 +7,8 @@
 
 namespace millwright::panels {
 
-/// Pixels: of all rows, or what is left of the pane, four lines at least. The table then scrolls by itself,
-/// and what stands above it stays.
+/// Pixels: of all rows, or what is left of the pane, four lines at least. The table then has its own scroll
+/// bar, and what stands above it stays.
 [[nodiscard]] float table_height(const Ui& ui, std::ptrdiff_t rows);
 
 } // namespace millwright::panels

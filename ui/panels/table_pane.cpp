@@ -232,7 +232,7 @@ void line_kept_clear(Ui& ui, std::string_view id, std::string_view text, widgets
     ui.words(text, tone);
 }
 
-/// Nobody tells where the table stands when it begins.
+/// The position of the table at the start is not reported.
 void start_line_fields(Ui& ui, const TableChoice& choice, const Vec3& at) {
     {
         const auto labels = ui.label_share(0.3F);

@@ -199,7 +199,8 @@ void TextEditor::draw_area(Ui& ui,
     if (answer.left) {
         ask.end_step();
     }
-    // What else was changed in the project is not taken back from within the text, where nobody sees it.
+    // What else was changed in the project is not taken back from within the text, where the change is not
+    // visible.
     if (answer.history < 0 && now.undo_title == edited_.title) {
         ask.run("edit.undo");
     } else if (answer.history > 0 && now.redo_title == edited_.title) {
@@ -221,7 +222,7 @@ void TextEditor::go_on(int direction) {
     shows_ = found_.has_value();
 }
 
-/// The first press shows the place, the second one replaces it: nothing changes that nobody has seen.
+/// The first press shows the place, the second one replaces it: nothing changes that has not been seen.
 void TextEditor::replace_one(ActionQueue& ask) {
     news_.clear();
     if (!found_) {

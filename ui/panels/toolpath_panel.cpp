@@ -41,7 +41,7 @@ Vec3 workpiece_offset(const FrameState& now) {
     return known ? now.plan->plan.cutting_setup->machine.description().workpiece_offset : Vec3(Vec3::Zero());
 }
 
-/// A grid that was made, or the path of the program where that is none of theirs.
+/// A grid that was made, or the path of the program where that is not one of theirs.
 void shown_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     std::vector<widgets::Option> options;
     std::vector<GridMethod> made;

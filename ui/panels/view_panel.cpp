@@ -332,7 +332,7 @@ void ViewPanel::follow_plot(const plan::PlotResult& made) {
     }
 }
 
-/// A map that has just come lies beside the part, where nobody looks.
+/// A map that has just come lies beside the part, outside the view.
 void ViewPanel::fit_set_up(const viewport::Scene& shown) {
     if (!shown.layers.set_up_map || !shown.set_up || !shown.set_up->study) {
         return;

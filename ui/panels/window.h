@@ -34,7 +34,7 @@ public:
     /// `focused`: the window has the keyboard.
     void draw(Ui& ui, float width, float height, bool focused = true);
 
-    /// Seconds until the picture changes by itself; empty: only when something happens.
+    /// Seconds until the picture changes without input; empty: only when something happens.
     [[nodiscard]] std::optional<double> next_change() const;
 
     [[nodiscard]] ViewPanel& view() { return view_; }

@@ -1,4 +1,4 @@
-// Something to draw into: colour (RGBA8) and depth, with or without several samples a pixel.
+// Something to draw into: colour (RGBA8) and depth, with or without several samples per pixel.
 #pragma once
 
 #include "ui/render/gl_objects.h"
@@ -10,7 +10,7 @@ namespace millwright::render {
 /// What is worth its time: while things move, `rough` costs a third where the processor draws.
 enum class Edges {
     smooth, ///< all samples of the framebuffer
-    rough   ///< one sample a pixel
+    rough   ///< one sample per pixel
 };
 
 class Framebuffer {

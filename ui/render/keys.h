@@ -1,4 +1,4 @@
-// Keys by name. The numbers are GLFW's, which are stable; nobody outside this folder needs to know that.
+// Keys by name. The numbers are GLFW's, which are stable; no code outside this folder needs to know that.
 #pragma once
 
 namespace millwright::render {

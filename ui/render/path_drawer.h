@@ -1,4 +1,4 @@
-// Thin lines of millions of pieces in little memory: 8 bytes a point. What is drawn of them is chosen anew
+// Thin lines of millions of pieces in little memory: 8 bytes per point. What is drawn of them is chosen anew
 // for each picture, by indices.
 #pragma once
 

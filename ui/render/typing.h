@@ -22,7 +22,7 @@ public:
     void add(const std::vector<TypedEvent>& events);
     /// For the next frame. Not `into_text`: all of it. Else what comes before the first event that would be
     /// taken out of its order; `was_down` tells of a key whether the last frame saw it down. Keys that are
-    /// let go are told at once, unless they went down among what still waits: nothing is held for longer
+    /// let go are reported at once, unless they went down among what still waits: nothing is held for longer
     /// than a person holds it.
     [[nodiscard]] std::vector<TypedEvent> next(bool into_text, const std::function<bool(int key)>& was_down);
     /// Something is left for another frame.

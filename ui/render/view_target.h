@@ -1,4 +1,4 @@
-// A 3D view as a picture of its own, with several samples a pixel, to be shown as an image inside a pane
+// A 3D view as a picture of its own, with several samples per pixel, to be shown as an image inside a pane
 // (which clips it) or read back.
 #pragma once
 

@@ -79,7 +79,7 @@ public:
     /// What was kept since the last call.
     [[nodiscard]] std::vector<TypedEvent> take_typing();
 
-    /// For the ImGui session; nobody else calls GLFW.
+    /// For the ImGui session; no other code calls GLFW.
     [[nodiscard]] GLFWwindow* handle() const;
 
 private:

@@ -50,7 +50,7 @@ public:
     void look_at(const Scene& scene);
     /// Takes in everything at the next draw().
     void fit();
-    /// The same for every camera that nobody has turned since it was fitted: there is more to be seen.
+    /// The same for every camera that has not been turned since it was fitted: there is more to be seen.
     void fit_unturned();
     /// Turns the picture last worked in.
     void look_from(render::StandardView side);

@@ -30,8 +30,8 @@ struct ListingView {
     float height = 0.0F;         ///< 0: all that is left
 };
 
-/// The line just clicked, counted from 0. G-code words, comments and line numbers are told apart by colour.
-/// Where a line is too long for its box, the box scrolls sideways; the tip of the line is the whole of it.
+/// The line just clicked, counted from 0. G-code words, comments and line numbers differ in colour. Where a
+/// line is too long for its box, the box scrolls sideways; the tip of the line is the whole of it.
 std::optional<std::ptrdiff_t> listing(Ui& ui, std::string_view id, const ListingView& view);
 
 } // namespace millwright::widgets

@@ -32,7 +32,7 @@ struct Rect {
     friend bool operator==(const Rect&, const Rect&) = default;
 };
 
-/// What a widget told about itself when it was drawn.
+/// What a widget reported about itself when it was drawn.
 struct Seen {
     Rect rect;
     bool enabled = true;

@@ -259,7 +259,7 @@ TextTicks x_ticks(const Ui& ui, const Mapping& mapping, const PlotView& view) {
     return texts;
 }
 
-/// `bottom`: where x is told, below everything.
+/// `bottom`: where the label of x is, below everything.
 void draw_axes(
     Ui& ui, const Mapping& mapping, const TextTicks& rows, float left, float bottom, const PlotView& view) {
     const ImFont* font = ui.look().fonts.small;

@@ -1,4 +1,4 @@
-// Where the machine is: one line an axis, in figures that can be read from two metres.
+// Where the machine is: one line per axis, in figures that can be read from two metres.
 #pragma once
 
 #include "ui/widgets/ui.h"
@@ -15,7 +15,7 @@ enum class AxisState {
     beyond_limit, ///< of its travel
     at_switch,    ///< a limit switch is pressed
     not_homed,    ///< or in doubt
-    old,          ///< as last told by a machine that nobody hears any more
+    old,          ///< as last reported by a machine that no longer answers
 };
 
 struct AxisReading {

@@ -13,7 +13,7 @@ namespace millwright::widgets {
 
 namespace {
 
-/// What ImGui's own copy of the text is told, and tells, while it is being written.
+/// What ImGui's own copy of the text is given, and reports, while it is being written.
 struct Writing {
     std::optional<std::string_view> given; ///< takes the place of what ImGui has
     int caret = -1;                        ///< byte offset

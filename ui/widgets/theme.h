@@ -45,7 +45,7 @@ struct Palette {
     Colour warning;
     Colour danger;
     Colour on_danger;
-    Colour series[12]; ///< lines of a plot; the first six are told apart by colour-blind people too
+    Colour series[12]; ///< lines of a plot; colour-blind people can distinguish the first six, too
     Colour axis[3];    ///< x, y, z
 };
 

@@ -89,7 +89,7 @@ public:
     void end_frame();
     /// Seconds until the picture changes without any input (a tip, a fading notice); empty: never.
     [[nodiscard]] std::optional<double> next_change() const;
-    /// A widget whose picture changes by itself asks for a frame `seconds` from now.
+    /// A widget whose picture changes without input asks for a frame `seconds` from now.
     void change_in(double seconds);
 
     [[nodiscard]] const Look& look() const { return look_; }

@@ -1,5 +1,5 @@
 // The immediate-mode vocabulary in which all panels are written. Small fields, buttons and words are members
-// of Ui (ui.h); larger pieces have a header of their own. Nobody outside this room and ui/render includes
+// of Ui (ui.h); larger pieces have a header of their own. No code outside this room and ui/render includes
 // ImGui.
 #pragma once
 

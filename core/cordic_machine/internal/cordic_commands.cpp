@@ -14,7 +14,7 @@ using cordic::Opcode;
 using cordic::Register;
 using cordic::Word;
 
-constexpr double microseconds = 1e6; // a second
+constexpr double microseconds = 1e6; // per second
 constexpr double no_word = -1.0;     // P or Q of a user's command that was not programmed
 
 /// What the processor cannot do, and the word that asked for it; no letter: it changes nothing that it does.

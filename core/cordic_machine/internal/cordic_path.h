@@ -30,7 +30,7 @@ struct DividedTurn {
 
 class CordicPath {
 public:
-    /// From `start`, which the processor is told. `code` outlives it.
+    /// From `start`, which is given to the processor. `code` outlives it.
     CordicPath(const CordicProgramSettings& settings, CordicCode& code, const Place3& start);
 
     /// A line, or a warning where the format sees none.

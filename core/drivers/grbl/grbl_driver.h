@@ -64,7 +64,7 @@ public:
     /// Lines that the controller has already, up to 20, are executed first.
     void set_single_block(bool on) override;
     /// Travel is known of a machine that homes: machine coordinates go from -travel to 0, or as its firmware
-    /// sets zero. An axis whose travel nobody reports has none here.
+    /// sets zero. An axis whose travel is not reported has none here.
     [[nodiscard]] MachineLimits limits() const override;
     [[nodiscard]] std::vector<ControllerSetting> settings() const override;
     [[nodiscard]] std::vector<StoredOffset> stored_offsets() const override;

@@ -22,7 +22,7 @@ public:
     };
     /// What is to be asked; nothing: all is known.
     [[nodiscard]] std::optional<Question> question() const;
-    /// An answer that comes when another program has begun is for nobody.
+    /// An answer that comes when another program has begun is ignored.
     void answer(const Question& question, int allowed);
 
 private:

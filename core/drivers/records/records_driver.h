@@ -1,5 +1,5 @@
-// A table that moves by itself: it is told where to go, how fast and with which acceleration, one record a
-// move, as `t x y z a s` in the KMITL master's thesis of 2006 (forming software for wood and plastic).
+// A table that plans its own moves: each record gives it a target, a speed and an acceleration, one record
+// per move, as `t x y z a s` in the KMITL master's thesis of 2006 (forming software for wood and plastic).
 // Programs of straight moves are sent block by block. Format: docs/reference/coordinate-stream.md. Lengths
 // mm, times s.
 #pragma once
@@ -26,8 +26,8 @@ struct RecordsOptions {
 /// other answer, or none in time, is an alarm, and nothing more is sent. Spindle and coolant are a person's.
 class RecordsDriver final : public SessionDriver {
 public:
-    /// The table stands at `position`; nobody tells. `clock` must outlive it. Throws Error for options out of
-    /// range, and for a machine with rotary axes.
+    /// The table stands at `position`; it does not report that. `clock` must outlive it. Throws Error for
+    /// options out of range, and for a machine with rotary axes.
     RecordsDriver(std::unique_ptr<links::Link> link,
                   const Clock& clock,
                   std::shared_ptr<const kinematics::MachineModel> model,

@@ -1,4 +1,4 @@
-// Records of a machine that is told where to go in words of its own, as `t x y z a s` of the motion unit in
+// Records of a machine that takes its targets in a format of its own, as `t x y z a s` of the motion unit in
 // the KMITL master's thesis of 2006 (forming software for wood and plastic). Lengths mm, angles degrees,
 // times s.
 #pragma once
@@ -37,7 +37,7 @@ struct Record {
 class RecordText {
 public:
     /// Throws Error quoting what is wrong in the pattern: an axis that the machine lacks, a brace that is not
-    /// closed, no axis at all, a line end; or for a patience that is none.
+    /// closed, no axis at all, a line end; or for an invalid patience.
     RecordText(const RecordFormat& format, const kinematics::MachineModel& model, int decimals);
 
     /// Without its ending. Throws Defect unless finite.
@@ -61,8 +61,7 @@ private:
     int decimals_;
 };
 
-/// Where the machine was told to go so far, in whole units of the last digit, so that relative records never
-/// drift.
+/// Where the machine was sent so far, in whole units of the last digit, so that relative records never drift.
 class RecordPath {
 public:
     RecordPath(bool relative, double period, int decimals)

@@ -124,7 +124,7 @@ void StreamDriver::begin() {
     follow();
 }
 
-/// From where it stands.
+/// From its present position.
 void StreamDriver::follow() {
     const AxisPositions position = machine_.status().position;
     if (record_text_) { // it stands there already
@@ -158,7 +158,7 @@ void StreamDriver::run(const std::stop_token& stop) {
         }
         next += options_.period;
         const double left = next - clock_.now();
-        constexpr double rest = 0.002; // s, where nothing moves and nobody waits
+        constexpr double rest = 0.002; // s, where nothing moves and no caller waits
         const bool stands = !moves(machine_.status());
         if (options_.paced && left > 0.0) {
             link_->wait(left);

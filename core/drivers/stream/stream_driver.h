@@ -26,15 +26,15 @@ namespace millwright::drivers {
 struct StreamOptions {
     double period = 0.01; ///< s between samples, 0.0005 to 1
     int decimals = 4;     ///< of mm and degrees, 0 to 9
-    bool paced = true;    ///< a sample a period; false: as fast as it goes, for files
+    bool paced = true;    ///< a sample per period; false: as fast as it goes, for files
     /// Given: records in place of the stream's own lines, and no first line. Nothing is sent before something
     /// moves.
     std::optional<RecordFormat> record = std::nullopt;
-    bool known = true; ///< where it stands; else that is assumed until the first sample
+    bool known = true; ///< its position; else that is assumed until the first sample
 };
 
-/// Nobody tells where the machine is: positions are those that were sent, and where records are answered,
-/// those that were. Any other answer, or none in time, is an alarm, and nothing more is sent.
+/// The machine does not report its position: positions are those that were sent, and where records are
+/// answered, those that were. Any other answer, or none in time, is an alarm, and nothing more is sent.
 class StreamDriver final : public Driver {
 public:
     /// Stands at `position`. `clock` must outlive it. Throws Error for options out of range.
@@ -119,7 +119,7 @@ private:
     std::vector<bool> linear_; ///< of each axis
     AnswerLines inbox_;
     bool told_place_ = false;        ///< where the first motion begins was sent
-    std::atomic<bool> known_ = true; ///< where it stands
+    std::atomic<bool> known_ = true; ///< its position
     std::atomic<std::int64_t> samples_ = 0;
     mutable std::mutex mutex_; ///< guards what follows
     std::string last_line_;

@@ -20,7 +20,7 @@ namespace internal {
 class VirtualAxes;
 }
 
-/// Machine seconds a second: 0.01 to 1000, or `unlimited`: as fast as it can be computed.
+/// Machine seconds per second: 0.01 to 1000, or `unlimited`: as fast as it can be computed.
 struct VirtualSpeed {
     static constexpr double unlimited = 0.0;
     static constexpr double slowest = 0.01;

@@ -27,7 +27,7 @@ struct LinuxCncTruthLine {
 };
 
 struct LinuxCncTruth {
-    std::vector<LinuxCncTruthLine> lines; ///< in their order; those without motion are not told
+    std::vector<LinuxCncTruthLine> lines; ///< in their order; those without motion are not listed
     int runs = 0;
     int ended_runs = 0;        ///< that came to their end
     double last_motion = -1.0; ///< when it last moved; negative: never

@@ -130,7 +130,7 @@ void StreamEmulator::advance(double seconds) {
 
 void StreamEmulator::go_to(std::vector<double> sample) {
     ++truth_.samples;
-    if (position_.empty()) { // where it stands by itself
+    if (position_.empty()) { // the first sample sets its position
         position_ = std::move(sample);
         return;
     }

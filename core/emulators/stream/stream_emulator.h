@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const StreamTruth& truth() const { return truth_; }
     /// Of the last heading; empty before there was one.
     [[nodiscard]] const std::vector<std::string>& axes() const { return axes_; }
-    /// Where it stands; empty before the first sample.
+    /// Its position; empty before the first sample.
     [[nodiscard]] const std::vector<double>& position() const { return position_; }
 
 private:

@@ -24,7 +24,7 @@ void TableEmulator::receive(std::string_view bytes) {
     inbox_.erase(0, begin);
     constexpr std::size_t longest = 10'000;
     if (inbox_.size() > longest) {
-        inbox_.clear(); // nobody's records are that long
+        inbox_.clear(); // no record is that long
     }
 }
 

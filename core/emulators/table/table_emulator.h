@@ -37,7 +37,7 @@ public:
     [[nodiscard]] bool moving() const override { return !due_.empty(); }
     /// Stands where it is, and refuses everything until it is switched on again.
     void raise_alarm() override;
-    /// Knows where it stands, and nothing else.
+    /// Keeps its position and forgets everything else.
     void power_cycle() override;
 
     /// Records that were obeyed.

@@ -13,8 +13,8 @@ namespace millwright::exchange {
 /// In the unit of the file; a million kilometres where that is the metre.
 inline constexpr double farthest_coordinate = 1e9;
 
-/// How many faces the text of a STEP file names, 0 and more. Throws Error with the line of the first number
-/// that is none ("nan", "1.#INF", "1e400") or point beyond farthest_coordinate; Cancelled.
+/// How many faces the text of a STEP file names, 0 and more. Throws Error with the line of the first invalid
+/// number ("nan", "1.#INF", "1e400") or point beyond farthest_coordinate; Cancelled.
 [[nodiscard]] int
 checked_step_text(const std::string& text, const std::filesystem::path& file, const Progress& progress);
 

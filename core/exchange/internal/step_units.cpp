@@ -89,7 +89,8 @@ private:
         return line > 0 ? fmt::format("{} in line {}", label(entity), line) : label(entity);
     }
 
-    /// Whether there is something to say of `entity` that was not said: each is told once, of many a few.
+    /// Whether there is something to report of `entity` that was not: each is reported once, and only the
+    /// first few.
     bool is_to_be_told(const Handle(Standard_Transient) & entity) {
         constexpr std::size_t few = 20;
         return told_.insert(model_.Number(entity)).second && told_.size() <= few;

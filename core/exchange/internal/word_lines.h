@@ -30,7 +30,7 @@ private:
     bool cr_alone_ = false; ///< as the first line ends: a LF behind a CR is not of the line, but what follows
 };
 
-/// The whole word as a number; nothing if it is none, or does not fit.
+/// The whole word as a number; nullopt if it is not a number, or does not fit.
 template <typename Number> std::optional<Number> number_from(std::string_view word) {
     if (word.starts_with('+')) {
         word.remove_prefix(1);

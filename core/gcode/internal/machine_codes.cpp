@@ -55,7 +55,7 @@ void wait_for_input(Run& run, const Block& block) {
     wait.mode = analog ? analog_mode : mode;
     wait.value = timeout;
     run.out.send(wait);
-    run.variables.set(parameter_input, 0.0); // nobody answers here
+    run.variables.set(parameter_input, 0.0); // there is no input here
 }
 
 void execute_input_output(Run& run, const Block& block, int code) {

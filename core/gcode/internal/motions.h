@@ -16,14 +16,14 @@ void make_synchronised(Run& run, const Block& block, int motion); ///< G33, G33.
 void make_threading(Run& run, const Block& block);                ///< G76
 void make_cycle(Run& run, Block& block, int motion);              ///< G73, G74, G81 to G89
 
-/// Nobody probes here: the probe is taken for tripped at the target, and the tool for backed off by 0.254 mm
+/// There is no probe here: it is taken for tripped at the target, and the tool for backed off by 0.254 mm
 /// (0.01 inch), as rs274 does; #5070 stays 0.
 void take_probe_for_tripped(Run& run, const AxisValues& target);
 
 /// A feed move needs a feed. `motion` is for the message.
 void expect_feed(const Run& run, const Block& block, int motion);
 
-/// In inverse time mode the feed of a move of `length`, told to the machine.
+/// In inverse time mode the feed of a move of `length`, given to the machine.
 void set_inverse_time_feed(Run& run, const Block& block, double length);
 
 } // namespace millwright::gcode::internal

@@ -46,7 +46,8 @@ struct ProgramView {
     bool value_returned = false;
 };
 
-/// A parameter that is read tells where the axes are, or what the control has stored and nobody has given.
+/// A parameter whose value depends on where the axes are, or on what the control has stored and the caller
+/// has not given.
 struct ParameterRead {
     int column = 1;
     int unknown = 0;         ///< the number of a stored one; 0: a position

@@ -37,7 +37,7 @@ CutProgramBuilder::CutProgramBuilder(const program::Program& program,
     find_safe_height(program, safe_height);
 }
 
-/// `tool`: that a change brings; 0: nobody said.
+/// `tool`: that a change brings; 0: unknown.
 void CutProgramBuilder::add(const program::Block& block, int tool) {
     switch (block.kind) {
     case program::BlockKind::rapid:

@@ -20,7 +20,7 @@ public:
                       std::filesystem::path file,
                       const std::optional<double>& safe_height);
 
-    /// `tool`: that a change brings; 0: nobody said.
+    /// `tool`: that a change brings; 0: unknown.
     void add(const program::Block& block, int tool);
     /// Once, after the last block.
     [[nodiscard]] CutProgram take();

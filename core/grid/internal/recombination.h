@@ -15,7 +15,7 @@ public:
     [[nodiscard]] bool empty() const { return past_.empty(); }
 
     /// Nodes better than `nodes`, whose residuals are `residuals`; `nodes` themselves where what is
-    /// remembered says nothing. Nobody has looked yet whether they are sound.
+    /// remembered says nothing. They have not been checked for soundness yet.
     [[nodiscard]] NodeArray best(const NodeArray& nodes, const NodeArray& residuals) const;
 
     /// Nodes and what their residuals are.

@@ -176,7 +176,7 @@ private:
         }
     }
 
-    /// Of the next feed; where there is none, none matters.
+    /// Of the next feed; where there is none, the value does not matter.
     [[nodiscard]] double feed() const {
         const auto& blocks = job_.program->blocks;
         const auto next = std::find_if(blocks.begin() + block_, blocks.end(), [](const Block& block) {

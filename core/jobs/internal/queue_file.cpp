@@ -63,7 +63,7 @@ Json json_of(const QueuedJob& job) {
     return value;
 }
 
-/// A job that was running when the program ended: nobody knows how far it came but its log.
+/// A job that was running when the program ended: only its log knows how far it came.
 void hold_interrupted(QueuedJob& job) {
     if (job.state == QueueState::running) {
         job.state = QueueState::held;

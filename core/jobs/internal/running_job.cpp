@@ -185,7 +185,7 @@ void RunningJob::write_own_lines() {
     }
 }
 
-/// Once for each time that the machine begins to wait by itself.
+/// Once for each time that the machine begins to wait without having been asked to.
 void RunningJob::write_waiting() {
     const bool for_tool = last_.tool_change && last_.tool_change->waits; // jogs do not end it
     const bool waits = for_tool || last_.state == drivers::DriverState::holding;

@@ -110,7 +110,7 @@ private:
     int logged_blocks_ = 0;
     std::size_t own_lines_ = 0; ///< that are in the log
     bool cancelled_ = false;
-    std::string waits_for_; ///< a person, and why; empty: for nobody
+    std::string waits_for_; ///< a person, and why; empty: does not wait
 };
 
 } // namespace millwright::jobs::internal

@@ -34,7 +34,7 @@ public:
         thread_ = std::jthread([this] { context_.run(); });
     }
 
-    /// As a wire to nobody: what would be too much is lost.
+    /// As a wire without a receiver: what would be too much is lost.
     void write_or_drop(std::string_view bytes) {
         {
             const std::scoped_lock lock(mutex_);

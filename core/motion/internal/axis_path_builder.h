@@ -21,7 +21,7 @@ namespace millwright::motion::internal {
 void check_axes(const std::vector<program::ProgramAxis>& axes,
                 const std::string& machine_of_program,
                 const Mechanism& machine);
-/// Throws Defect for a setting out of range, or a start that is none of the machine's.
+/// Throws Defect for a setting out of range, or a start that is invalid for the machine.
 void check_settings(const PlannerSettings& settings,
                     const Mechanism& machine,
                     const kinematics::AxisPositions& start);

@@ -29,7 +29,7 @@ public:
     void append(Job job);
     /// Drops what waits and stops what runs, which is over when its next check comes.
     void clear();
-    /// Both at once, so that nobody sees an idle moment in between.
+    /// Both at once, so that no idle moment is visible in between.
     void replace(Job job);
 
     [[nodiscard]] Activity activity() const;

@@ -10,7 +10,7 @@
 
 namespace millwright::plan {
 
-/// What a person is told about a failure that is ours, not theirs.
+/// What is reported to a person about a failure that is ours, not theirs.
 [[nodiscard]] inline Diagnostic internal_failure(const std::exception& failure) {
     return {{}, fmt::format("internal error: {}", failure.what()), "report it together with the file"};
 }

@@ -87,7 +87,8 @@ struct Stage {
     bool stays = false;  ///< a stale result that is not exact is shown until the next one is there
     /// Results of this quality are shown as soon as they are there, not with those of the stages that follow.
     std::optional<Quality> shown_early = {};
-    /// The compared grid whose own a failure is, and told with it; nothing: without this there is no plan.
+    /// The compared grid whose own a failure is, and reported with it; nothing: without this there is no
+    /// plan.
     std::optional<project::GridMethod> fault_of = {};
 };
 

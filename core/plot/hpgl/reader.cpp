@@ -80,7 +80,7 @@ private:
     /// What is known of a command that could not be followed, so that nothing behind it is drawn otherwise.
     void keep_safe(std::string_view name) {
         if (name == "SP") {
-            run_.pen.put_away(); // what follows was meant for a pen that nobody knows
+            run_.pen.put_away(); // what follows was meant for an unknown pen
         } else if (name == "PU") {
             run_.pen.lift(); // wherever it was to go
         } else if (name == "PR" || name == "PA") {

@@ -13,7 +13,7 @@ namespace millwright::plot::internal {
 [[nodiscard]] Region from_clipper(const ClipperLib::Paths& paths);
 
 /// Grown by `distance`, mm; the outermost rings have one sense, those within them turn about. Throws Error
-/// for an offset beyond 1 km and a tolerance that is none.
+/// for an offset beyond 1 km and an invalid tolerance.
 [[nodiscard]] ClipperLib::Paths
 offset_paths(const ClipperLib::Paths& paths, double distance, Corners corners, double arc_tolerance);
 

@@ -7,7 +7,7 @@
 
 namespace millwright::plot {
 
-/// The first of these that is given counts; without any the file's own density, else 0.26 mm a pixel as in
+/// The first of these that is given counts; without any the file's own density, else 0.26 mm per pixel as in
 /// the KMITL master's thesis of 2006.
 struct PictureSize {
     std::optional<double> width = {};         ///< of the picture, or of its region, mm

@@ -16,7 +16,7 @@ struct GrayImage {
     friend bool operator==(const GrayImage&, const GrayImage&) = default;
 };
 
-/// The bytes of a PNG of 8 bits a pixel. Throws Defect unless there are as many pixels as the size says, at
+/// The bytes of a PNG of 8 bits per pixel. Throws Defect unless there are as many pixels as the size says, at
 /// least one.
 [[nodiscard]] std::string png_bytes(const GrayImage& image);
 

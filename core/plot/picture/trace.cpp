@@ -29,7 +29,7 @@ void check_trace_settings(const TraceSettings& settings) {
     within("the tolerance", settings.tolerance, coarsest);
 }
 
-/// One bit a pixel, set where the picture is dark; scan lines from below, as potrace has them.
+/// One bit per pixel, set where the picture is dark; scan lines from below, as potrace has them.
 class BitMap {
 public:
     BitMap(const Picture& picture, double threshold) {

@@ -26,15 +26,15 @@ public:
 
 class PmacDriver final : public drivers::SessionDriver {
 public:
-    /// `clock` must outlive it. Throws Error for axes or motors that no PMAC has, or that are told twice.
+    /// `clock` must outlive it. Throws Error for axes or motors that no PMAC has, or that are given twice.
     PmacDriver(std::unique_ptr<links::Link> link, const Clock& clock, PmacSettings settings = arm_settings());
     PmacDriver(const PmacDriver&) = delete;
     PmacDriver& operator=(const PmacDriver&) = delete;
     ~PmacDriver() override;
 
-    // connect() throws Error if nobody answers as a PMAC. The motors keep the power that they have. A program
-    // and homing need motors with power; a program needs a known position, too. Jog::speed is rad/s, and no
-    // more than PmacAxis::jog_deg_per_s.
+    // connect() throws Error if no PMAC answers. The motors keep the power that they have. A program and
+    // homing need motors with power; a program needs a known position, too. Jog::speed is rad/s, and no more
+    // than PmacAxis::jog_deg_per_s.
 
     [[nodiscard]] std::string name() const override { return "pmac"; }
     [[nodiscard]] drivers::Capabilities capabilities() const override;
@@ -67,7 +67,7 @@ public:
     /// After close(): what a person should know of motors that may have kept their power; "" if the card told
     /// that they are as PmacSettings::parting says.
     [[nodiscard]] std::string farewell() const;
-    [[nodiscard]] bool any_power() const; ///< of its motors, as the card told last
+    [[nodiscard]] bool any_power() const; ///< of its motors, as the card last reported
 
 private:
     [[nodiscard]] internal::PmacSession& talk() const;

@@ -23,7 +23,7 @@ struct PmacAxis {
     double jog_deg_per_s = 5.0;                 ///< no jog is faster, whatever Ix22 says
 };
 
-/// What becomes of the motors' power when the link is dropped: nobody watches over it any more.
+/// What becomes of the motors' power when the link is dropped: from then on they are not monitored.
 enum class Parting {
     takes_power, ///< nothing keeps any
     as_found,    ///< taken away unless it was there when the link was made

@@ -111,7 +111,7 @@ public:
         }
         return record;
     }
-    /// The card ended the program by itself.
+    /// The card ended the program without a command from us.
     [[nodiscard]] bool broke_off() {
         card_.receive(fmt::format("&{}??\r", settings_.card.system));
         const std::string answer = card_.take_output();

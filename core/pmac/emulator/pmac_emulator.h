@@ -15,7 +15,7 @@
 namespace millwright::pmac {
 
 struct PmacEmulatorOptions {
-    std::vector<PmacPlant> plants{}; ///< of the channels from the first; those not told are as by default
+    std::vector<PmacPlant> plants{}; ///< of the channels from the first; those not given are as by default
     int channels = 4;                ///< 4, or 8 with the second row of outputs
 };
 
@@ -33,7 +33,7 @@ public:
     [[nodiscard]] bool moving() const override;
     /// The amplifiers report a fault and drive nothing, until clear_faults().
     void raise_alarm() override;
-    /// The amplifiers have no power; the card is not told.
+    /// The amplifiers have no power; the card is not notified.
     void emergency_stop() override;
     /// What SAVE stored is in force; programs and definitions stay (battery), positions do not.
     void power_cycle() override;

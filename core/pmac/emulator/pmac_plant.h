@@ -14,7 +14,7 @@ struct PmacPlant {
     double coast_time = 0.02;     ///< s: how it comes to rest without an amplifier
     double bias = 0.0;            ///< bits that the amplifier adds
     double friction = 0.0;        ///< bits below which it does not move
-    /// Encoder decode (I900, ...) with which it counts as here told; nothing: with any.
+    /// Encoder decode (I900, ...) with which it counts as given here; nothing: with any.
     std::optional<int> decode;
     double home_edge = 5000.0; ///< where the home flag falls, going up
     double low_switch = -std::numeric_limits<double>::infinity();
@@ -22,7 +22,7 @@ struct PmacPlant {
 };
 
 /// The four driven axes of the Motoman L-3 as Saengsasri, Nittayachin 1996, KMITL, found them: encoders
-/// counted once a line, three of them the other way round, and the offsets that held them still.
+/// counted once per line, three of them the other way round, and the offsets that held them still.
 [[nodiscard]] inline std::vector<PmacPlant> arm_plants() {
     std::vector<PmacPlant> plants(4);
     plants[0].decode = 1;

@@ -9,7 +9,7 @@ namespace millwright::project {
 class FileLock {
 public:
     /// Null if another holds it. Makes the file where missing; it is never removed, since a lock on a removed
-    /// file keeps nobody out. Throws Error if it cannot be opened.
+    /// file has no effect. Throws Error if it cannot be opened.
     [[nodiscard]] static std::unique_ptr<FileLock> taken(const std::filesystem::path& file);
     FileLock(const FileLock&) = delete;
     FileLock& operator=(const FileLock&) = delete;

@@ -1,4 +1,4 @@
-// Numbers of the core as people are told them: rows of settings for members at any depth.
+// Numbers of the core as they are shown to people: rows of settings for members at any depth.
 #pragma once
 
 #include "core/base/error.h"
@@ -13,7 +13,7 @@
 
 namespace millwright::project::internal {
 
-/// How a number of the core is told to people.
+/// How a number of the core is shown to people.
 enum class As { it_is, degrees, mm_per_min };
 
 template <As as> double from_people(double value) {

@@ -6,7 +6,7 @@
 
 namespace millwright::toolpath {
 
-/// As height_over(); what is not below `enough` may be told as any other height that is not.
+/// As height_over(); what is not below `enough` may be given as any other height that is not.
 [[nodiscard]] double height_below(const Profile& body,
                                   const geometry::ToolPose& pose,
                                   const Vec3& point,

@@ -158,7 +158,7 @@ TEST_F(DraftTest, ALinkOfAStrangerInAnOpenFolderIsNotFollowed) {
     write_file(folder_ / "open/out", "new");
     EXPECT_EQ(read_file(folder_ / "home/secret"), "new");
     ASSERT_EQ(::chown((folder_ / "open").c_str(), 0, 0), 0);
-    ASSERT_EQ(::chmod((folder_ / "open").c_str(), 0755), 0); // where nobody else writes it is no trap
+    ASSERT_EQ(::chmod((folder_ / "open").c_str(), 0755), 0); // where no one else can write it is no trap
     write_file(folder_ / "open/folder/secret", "newer");
     EXPECT_EQ(read_file(folder_ / "home/secret"), "newer");
 }

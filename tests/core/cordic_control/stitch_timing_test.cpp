@@ -31,7 +31,7 @@ TEST(StitchTiming, SeesWhatComesTooLate) {
     const StitchTiming run = time_stitches({}, stitches);
     EXPECT_EQ(run.stitches, 4);
     EXPECT_EQ(run.late_computations, 2);
-    EXPECT_EQ(run.late_moves, 1); // 15 mm in 13.3 ms need 3375 turns a minute
+    EXPECT_EQ(run.late_moves, 1); // 15 mm in 13.3 ms need 3375 turns per minute
     EXPECT_EQ(run.late, (std::vector<std::size_t>{1, 2, 3}));
 }
 

@@ -191,7 +191,7 @@ TEST(CordicCompiler, MakesLinesInSpaceAndHelicesOfWhatRises) {
     const double turned = 6e-8 * 3.0 * static_cast<double>(program.points.size()); // by rotations, mm
     EXPECT_LT(report.position_error, turned);
     EXPECT_LT(report.speed_error, 5e-5); // of the last chord, which ends where the program says
-    for (std::size_t n = 3; n < program.points.size(); ++n) { // on the helix: radius 3, 4 mm down a turn
+    for (std::size_t n = 3; n < program.points.size(); ++n) { // on the helix: radius 3, 4 mm down per turn
         const auto set = processor.set_point(processor.published()[n]);
         const double z = processor.height_point(processor.published()[n]).z;
         EXPECT_NEAR(std::hypot(set.x, set.y - 2.0), 3.0, turned);
@@ -245,7 +245,7 @@ TEST(CordicCompiler, RefusesAnArcOfTooManyChordsInAnyPlane) {
     }
 }
 
-// 0.1 mm a turn at 1200 and 2400 turns a minute, then mm a minute, then 2 a minute (inverse time).
+// 0.1 mm per turn at 1200 and 2400 turns per minute, then mm per minute, then 2 per minute (inverse time).
 TEST(CordicCompiler, KnowsFeedsARevolutionAMinuteAndOfInverseTime) {
     const CordicProgram program = compiled_program(
         "G21 S1200 M3\nG95 F0.1 G1 X5\nS2400\nG1 X10\nG94 F300\nG1 X15\nG93 G1 X20 F2\nM2\n");
@@ -273,7 +273,7 @@ TEST(CordicCompiler, MakesOneInstructionOfAHelixOfManyTurns) {
     EXPECT_LT(processor.set_point(processor.published()[1]).y, 0.0);
 }
 
-// The old sense of rotation would be told the new speed first.
+// The old sense of rotation would be given the new speed first.
 TEST(CordicCompiler, ReversesTheSpindleInOneCommand) {
     const CordicProgram program = compiled_program("M3 S1000\nS500 M4\nM4 S400\nS300\nM5 S200\nM2\n");
     const cordic::Processor processor = run(program);

@@ -222,7 +222,7 @@ TEST(SinglePass, HasTheMatlabModelsSignOfZeroWhereItIsAskedTo) {
     const PassInput input{.mode = Mode::rotation, .x = 0.5, .y = 0.0, .z = 0.0, .zero = SignOfZero::zero};
     const SinglePass found = single_pass(binary64, thesis_sequence(), input);
     EXPECT_NEAR(found.x, 0.3920199815, 1e-10);
-    EXPECT_NEAR(found.error, 0.5 - 0.3920199815, 1e-10) << "which is told";
+    EXPECT_NEAR(found.error, 0.5 - 0.3920199815, 1e-10) << "which is reported";
 }
 
 // 4, 13 and 40 are done twice: without that a gap is left that no later step closes.

@@ -68,7 +68,7 @@ public:
             seconds);
     }
 
-    /// Pulls the plug, which the session is told, or lets all bytes vanish without a word.
+    /// Pulls the plug, which is reported to the session, or lets all bytes vanish without a word.
     void cut() { cut_ = true; }
     void go_deaf() { deaf_ = true; }
     [[nodiscard]] bool broken() const {

@@ -109,7 +109,7 @@ struct EmulatorServerBench {
     }
 };
 
-// As the PMAC driver polls: a line every 20 ms, and its end as soon as the card has told the line's sum.
+// As the PMAC driver polls: a line every 20 ms, and its end as soon as the card has sent the line's sum.
 TEST(EmulatorServer, RunsAtItsTrueSpeedForAHostThatAsksEveryTwoOfItsSilences) {
     EmulatorServerBench bench;
     for (int poll = 0; poll < 50; ++poll) {

@@ -93,7 +93,7 @@ TEST(FaceFit, TellsTheDistanceFromTheFaceItself) {
         const double measured =
             largest_on(fit.patch, [](const Vec3& at) { return distance_from_torus(at, 100.0, 40.0); });
         EXPECT_GT(fit.deviation.max, 0.9 * measured) << degree;
-        // Sides that end short of the face's are told, too.
+        // Sides that end short of the face's are reported, too.
         EXPECT_LT(fit.deviation.max, 2.0 * measured + 1e-6) << degree;
         // Its sides go a little beyond those of the face, which the whole torus does not tell.
         EXPECT_GT(fit.deviation.patch_max, 0.98 * measured) << degree;

@@ -73,8 +73,7 @@ TEST(CutPrograms, TellsOfAHeightThatIsNotNamedAndCountsNoWayDownToIt) {
     ASSERT_EQ(program.notices.size(), 1U);
     EXPECT_EQ(program.notices[0].place.line, 3);
     EXPECT_THAT(program.notices[0].message, HasSubstr("no height is given before this feed move"));
-    EXPECT_NEAR(plot::lengths(program.path).cut, 6.0, 1e-9)
-        << "lowered all the same: nobody knows from where";
+    EXPECT_NEAR(plot::lengths(program.path).cut, 6.0, 1e-9) << "lowered all the same, from an unknown height";
     EXPECT_NEAR(named_lengths(program).cut, 1.0, 1e-9);
     EXPECT_NEAR(named_lengths(program).travel, std::sqrt(2.0), 1e-9);
 

@@ -391,7 +391,7 @@ TEST(Placement, ARapidOfTheRetractAxisFirstIsSafeOnlyAboveTheWorkAndItsCuts) {
     EXPECT_THAT(said("G21 G90\nG53 G0 Z-35\nG0 X5 Y5\nG1 Z-1 F100\nM2\n", with_origin(Vec3(0, 0, -30))),
                 HasSubstr(plunge + "3"));
     EXPECT_THAT(said("G21 G90\nG53 G0 Z-35\nG0 X5 Y5\nM2\n"), HasSubstr(plunge + "3"))
-        << "nobody knows where the work is";
+        << "the position of the work is unknown";
 }
 
 TEST(Placement, NamesEveryAxisOfUnknownStartWithTheLineThatSetsIt) {

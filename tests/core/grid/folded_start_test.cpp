@@ -1,5 +1,4 @@
-// Grids to start from whose cells have no area: every solver says so, and none makes a number that is none of
-// them.
+// Grids to start from whose cells have no area: every solver says so, and none makes a NaN of them.
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid.h"

@@ -1,5 +1,5 @@
 // The judge is JacobiNewton: other code that solves the same equations, run to a norm at which the grids can
-// be told apart by 1e-6 of a cell at most.
+// differ by 1e-6 of a cell at most.
 #include "core/grid/multigrid.h"
 
 #include "core/base/error.h"

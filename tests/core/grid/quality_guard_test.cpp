@@ -11,7 +11,7 @@ namespace {
 
 using test::along_v;
 
-/// Each move by itself wants to be 0.5 long; what the path is worth is said.
+/// Each individual move wants to be 0.5 long; what the path is worth is given.
 class PathModel final : public ErrorModel {
 public:
     [[nodiscard]] MoveError move(const Vec2& a, const Vec2& b, Sampling) const override {

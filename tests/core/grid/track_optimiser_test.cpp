@@ -206,7 +206,7 @@ TEST(TrackOptimiser, SaysSoWhenThereIsNothingToGain) {
     settings.lattice = 9;
     settings.longest_move = 1.5;
     settings.shortest_move = 0.5;
-    const OptimiserState state = optimised(model, Grid::uniform(4, 2), settings); // a move a track: its ends
+    const OptimiserState state = optimised(model, Grid::uniform(4, 2), settings); // one move per track
     EXPECT_EQ(state.best, Grid::uniform(4, 2));
     EXPECT_EQ(state.of_best.mean, state.start.mean);
 

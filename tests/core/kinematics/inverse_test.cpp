@@ -110,7 +110,7 @@ TEST(InverseKinematics, AnswersOutsideLimitsWithTheAxisAndTheRange) {
     EXPECT_NE(below.why.find("axis A"), std::string::npos) << below.why;
 }
 
-// 237.844 deg was told of a position at -122.156, two degrees beyond the limit.
+// 237.844 deg was reported for a position at -122.156, two degrees beyond the limit.
 TEST(InverseKinematics, OutsideLimitsTellsTheTurnThatIsNearestToThem) {
     const MachineModel machine = test::machine("ac-table"); // A within 120 deg
     AxisPositions there = AxisPositions::Zero(5);

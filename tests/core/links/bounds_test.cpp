@@ -1,4 +1,4 @@
-// What links hold of bytes that nobody takes.
+// What links hold of bytes that are not taken.
 #include "core/links/file_link.h"
 #include "core/links/pseudo_terminal.h"
 #include "core/links/tcp_link.h"

@@ -37,7 +37,7 @@ TEST(ArmWays, PutTheToolWhereThePartStands) {
     part.translation() = Vec3(700.0, 0.0, -300.0);
     part.linear() = Eigen::AngleAxisd(0.5 * pi, Vec3::UnitZ()).toRotationMatrix();
     const auto ways = arm_ways(std::make_shared<const Program>(program), router, part);
-    // The rapid leads from where nobody knows: it is not asked of the arm.
+    // The rapid leads from an unknown position: it is not asked of the arm.
     ASSERT_EQ(ways.size(), 1U);
     const ArmWay& way = ways.front();
     EXPECT_EQ(way.line, 7);

@@ -124,7 +124,7 @@ TEST(StepPulses, SayHowFastTheyCome) {
 
 TEST(StepPulses, ComeLateFromATimerThatIsTooSlow) {
     StepSettings settings = hundred_per_mm();
-    settings.timer_frequency = 1000.0; // 1000 pulses a second need one every tick
+    settings.timer_frequency = 1000.0; // 1000 pulses per second need one every tick
     settings.min_interval = 2;
     settings.jitter_limit = 1e-3;
     const Pulsed found = pulsed(planned_feeds({at_xy(10.0)}), settings);

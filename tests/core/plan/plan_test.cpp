@@ -67,7 +67,8 @@ TEST(Plan, TheProgramIsMadeFromTheChosenGrid) {
     EXPECT_GT(by_uniform.trajectory->duration(), 0.0);
 }
 
-// The same weight everywhere makes no other grid than the uniform one: nothing was placed, nothing is told.
+// The same weight everywhere makes no other grid than the uniform one: nothing was placed, nothing is
+// reported.
 TEST(Plan, TheNoteOfAKeptGridTellsOfNoAddedPoints) {
     project::Project project = small_sample("two-bell", 8);
     project.sequencing.largest_step_deg = 15.0;

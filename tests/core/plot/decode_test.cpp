@@ -147,7 +147,7 @@ TEST(Decoding, VelocitiesAboveTheFastestAreRefused) {
     EXPECT_THROW(static_cast<void>(decode_within(39.9, diagonal(), steps_of(0.4))), Error);
 }
 
-// A machine that is told its own greatest speed refuses points that are farther apart than that.
+// A machine whose own greatest speed is given refuses points that are farther apart than that.
 TEST(Decoding, TravelIsNeverFasterThanItsVelocity) {
     const Strokes strokes = {{.pen = 1, .points = {{7.03, 3.1}, {8.0, 3.1}}}};
     for (const auto rounding : {SampleRounding::down, SampleRounding::nearest, SampleRounding::exact}) {

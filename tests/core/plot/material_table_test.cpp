@@ -24,7 +24,7 @@ const Material& material(const std::vector<Material>& all, const std::string& na
     return *std::ranges::find(all, name, &Material::name);
 }
 
-// 0.003 in x 2 edges x 10,000 a minute = 60 in/min = 25.4 mm/s.
+// 0.003 in x 2 edges x 10,000 per minute = 60 in/min = 25.4 mm/s.
 TEST(MaterialTable, FeedsAreChipLoadsTimesEdgesTimesTurns) {
     const auto all = shipped();
     const CuttingValues values = material(all, "Hardwood").values(3.175);
@@ -51,7 +51,7 @@ TEST(MaterialTable, NamesTheSourceOfEachValue) {
     EXPECT_THAT(kinds, testing::ElementsAre("metal", "plastic", "rubber", "wood"));
 }
 
-// 0.005 in x 2 edges x 10,000 a minute = 100 in/min.
+// 0.005 in x 2 edges x 10,000 per minute = 100 in/min.
 TEST(MaterialTable, AluminiumIsCutInThinnerPasses) {
     const CuttingValues values = material(shipped(), "Aluminium").values(6.35);
     EXPECT_NEAR(values.feed.value, 100.0 * 25.4 / 60.0, 1e-9);

@@ -84,7 +84,7 @@ TEST(OffsetFinderC2, DoesNotChaseAMotorWhoseEncoderCountsTheOtherWay) {
     }
 }
 
-/// As the driver in an alarm: variables are set, motors are told nothing.
+/// As the driver in an alarm: variables are set, motors are sent nothing.
 TEST(OffsetFinderC2, GivesBackWhatItChangedWheneverTheCardTakesNoMoreCommands) {
     for (int last = 0; last < 40; ++last) {
         PmacPlant plant;

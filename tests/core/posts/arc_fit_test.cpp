@@ -274,7 +274,7 @@ TEST(AxesNamed, AreThoseOfThePlaneAndOfTheFeedsOnly) {
     const FittedArc arc{0, 2, gcode::Plane::xy, Vec2(1.0, 2.0), 5.0, 1.0};
     const auto names = [&](int axis) { return axes_named(program, arc).contains(axis); };
     EXPECT_TRUE(names(0) && names(1));
-    EXPECT_FALSE(names(2) || names(3)); // an arc must not take Z where nobody said it is
+    EXPECT_FALSE(names(2) || names(3)); // an arc must not use an unknown Z
     program.blocks[1].named.insert(2);
     EXPECT_TRUE(names(2));
     EXPECT_FALSE(names(3));

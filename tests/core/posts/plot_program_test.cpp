@@ -55,7 +55,7 @@ TEST(PlotProgram, IsReadBackMoveByMove) {
     EXPECT_NE(listing.text.find("M2"), std::string::npos);
 }
 
-// From zero, where a program begins, to its end: the two figures that a person is told.
+// From zero, where a program begins, to its end: the two figures that are reported to a person.
 TEST(PlotProgram, GoesAsFarAsItsPathSays) {
     const CutPath path = square_and_hole();
     const PathLengths told = lengths(path);
@@ -78,7 +78,7 @@ TEST(PlotProgram, TellsTheFirstToolBeforeTheSpindleTurns) {
     const Strokes line = {{.pen = 4, .points = {{0.0, 0.0}, {10.0, 10.0}}}};
     const std::string one = text_of(cut_path(line, {.levels = {{.pen = 4, .tool = 7}}}));
     EXPECT_LT(one.find("tool 7"), one.find("M3")) << one;
-    EXPECT_EQ(one.find("M0"), std::string::npos) << one; // nobody is waited for
+    EXPECT_EQ(one.find("M0"), std::string::npos) << one; // no pause
 }
 
 TEST(PlotProgram, SaysWhichOriginKeepsItOnTheTable) {
@@ -117,7 +117,7 @@ TEST(PlotProgram, MovesUpBeforeAcross) {
     FAIL() << "no move";
 }
 
-// Where the spindle stands nobody knows: a stroke that begins at 0 0 is approached like any other.
+// The spindle's position is unknown: a stroke that begins at 0 0 is approached like any other.
 TEST(PlotProgram, TellsEachAxisBeforeItPlungesAlsoAtZero) {
     const Strokes strokes = {{.pen = 1, .points = {{0.0, 0.0}, {10.0, 10.0}}}};
     CutSettings settings;

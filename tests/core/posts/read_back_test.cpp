@@ -104,7 +104,7 @@ std::vector<Written> all_written() {
     return all;
 }
 
-// Near a singular point on the edge of a face: LinuxCNC makes no feed slower than 0.1 mm a minute, and by
+// Near a singular point on the edge of a face: LinuxCNC makes no feed slower than 0.1 mm per minute, and by
 // that would make the turn in 0.06 s. The text was refused, and with it the whole program.
 TEST(ReadBack, PassesATurnBesideNextToNothingOfAWay) {
     const auto machine = test::machine("ac-table");

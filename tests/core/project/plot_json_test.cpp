@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Nothing in it as it is by itself.
+/// Nothing in it has its default value.
 Project every_setting_changed() {
     Project project = project_from_preset("dome");
     project.plot.file = "/drawings/sign.plt";

@@ -146,7 +146,7 @@ TEST(SweptCut, AgreesWithTheFormulaOfSecondOrderOnACurvedPart) {
 }
 
 /// Up a slope of 45 degrees, tip on it: the edge behind the tip cuts R / sqrt(2) too deep. Between two looks
-/// it was told up to half a look too high, by the rule for arcs.
+/// it was reported up to half a look too high, by the rule for arcs.
 TEST(SweptCut, UnderAnEdgeIsExactBetweenLooks) {
     geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
     for (int i = 0; i < 2; ++i) {

@@ -41,7 +41,7 @@ TEST_F(ArmWorkspaceTest, FindsEverySolutionOfAGoalAndNamesItsBranch) {
     ASSERT_EQ(workspace_.solutions().size(), 2U); // as `millwright arm ik`
     EXPECT_EQ(workspace_.solutions()[0].branch, "front, elbow up");
     EXPECT_EQ(workspace_.solutions()[1].branch, "front, elbow down");
-    EXPECT_NEAR(workspace_.solutions()[0].farthest_turn, 0.0, 1e-9); // where it stands
+    EXPECT_NEAR(workspace_.solutions()[0].farthest_turn, 0.0, 1e-9); // its position
     for (const ArmSolution& solution : workspace_.solutions()) {
         const Frame there = arm::base_T_tool(workspace_.arm(), solution.joints);
         EXPECT_LT((there.translation() - Vec3(800.0, 0.0, 650.0)).norm(), 1e-9);

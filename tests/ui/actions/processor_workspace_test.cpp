@@ -75,7 +75,7 @@ TEST(ProcessorWorkspace, TellsWhatComesTooLateAtASlowerClockAndStaysWhereItStand
     EXPECT_EQ(workspace.sewing().late_computations, 3); // more than the 20 ms of a stitch
     EXPECT_EQ(workspace.sewing().late_moves, 0);
     choice.clock_hz = 8e6;
-    choice.needle_rpm = 50'000.0; // 1 mm in 0.8 ms: 3750 turns a minute of the screw
+    choice.needle_rpm = 50'000.0; // 1 mm in 0.8 ms: 3750 turns per minute of the screw
     workspace.set(choice);
     EXPECT_TRUE(workspace.report().late.empty());
     EXPECT_EQ(workspace.sewing().late_computations, 0);

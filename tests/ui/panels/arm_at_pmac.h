@@ -27,7 +27,7 @@ struct ArmAtPmac {
         const auto machine = person.app().look().connection;
         return machine.connected() && machine.status.state == state;
     }
-    /// Whatever ended it, nothing moves any more and nobody says that it does.
+    /// Whatever ended it, nothing moves any more and no motion is reported.
     [[nodiscard]] bool rests() {
         const bool told = is(drivers::DriverState::idle) || is(drivers::DriverState::stopped) ||
                           is(drivers::DriverState::alarm);

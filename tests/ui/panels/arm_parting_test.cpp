@@ -1,4 +1,5 @@
-// What a person is told of a card's protections, alarms and power, and what becomes of power when they leave.
+// What is reported to a person of a card's protections, alarms and power, and what becomes of power when they
+// leave.
 #include "core/base/error.h"
 #include "tests/ui/panels/arm_at_pmac.h"
 #include "ui/actions/arm_workspace.h"

@@ -34,7 +34,7 @@ protected:
         arm().wait_idle();
         person_.frames(2);
     }
-    /// The way to the path's beginning, which nobody saw in the picture.
+    /// The way to the path's beginning, which was not shown in the picture.
     void expect_careful_approach() {
         const auto motion = arm().path()->motion;
         ASSERT_TRUE(motion);
@@ -56,7 +56,7 @@ protected:
         person_.frames(5);
         EXPECT_GT((arm().tool().translation() - begin).norm(), 0.1);
         constexpr double longest_s = 1e5;
-        ASSERT_TRUE(arm().advance(longest_s)); // nobody waits for the rest
+        ASSERT_TRUE(arm().advance(longest_s)); // the rest is not waited for
         EXPECT_LT((arm().tool().translation() - end).norm(), 0.1);
     }
 

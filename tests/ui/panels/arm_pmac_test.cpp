@@ -221,7 +221,7 @@ TEST(ArmAtPmacF1, AProgramThatLeavesTheLimitsOfAJointIsNotRun) {
     bench.person.app().run("machine.home");
     ASSERT_TRUE(bench.person.live_until(
         [&] { return status().position_known && bench.is(DriverState::idle); }, 60.0));
-    constexpr double settled = 0.2; // s of the card: a motor comes to rest a little after it is told so
+    constexpr double settled = 0.2; // s of the card: a motor comes to rest a little after the command
     ASSERT_TRUE(
         bench.person.live_until([&] { return bench.pmac.time() > bench.pmac.last_motion() + settled; }));
     const double before = bench.pmac.last_motion();
@@ -331,7 +331,7 @@ TEST(ArmAtPmacF2, AKillTakesThePowerAndNoJogGivesItBack) {
     bench.person.keep("arm-killed");
 }
 
-/// What stopped the arm is not undone by a key that nobody let go of.
+/// What stopped the arm is not undone by a key that was never released.
 TEST(ArmAtPmacF2, AKeyThatIsHeldMovesNothingAfterAStop) {
     using render::Key;
     ArmAtPmac bench;

@@ -23,7 +23,7 @@ namespace {
 using drivers::DriverState;
 using project::TaughtPoint;
 
-/// In the picture and in the card, which are told to each other.
+/// Tolerances between the picture and the card, which follow each other.
 constexpr double near_deg = 0.05, near_mm = 5.0;
 constexpr double longest_s = 120.0;
 
@@ -149,7 +149,7 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
                    way.push_back(*place);
                }
            });
-    ASSERT_FALSE(way.empty()); // the window told how far it was
+    ASSERT_FALSE(way.empty()); // the window showed how far it was
     EXPECT_GT(way.back().share, 0.9);
     EXPECT_GT(way.back().line, way.back().lines - 8);
     EXPECT_LT(way.front().share, 0.3);
@@ -187,14 +187,14 @@ TEST_F(ArmAtPmacShow, ConnectsHomesJogsTeachesPlaysRunsAFileLosesThePlugAndRecov
     EXPECT_FALSE(person_.refusal("lower/arm_play_points").empty());
     EXPECT_FALSE(person_.refusal("lower/arm_teach").empty());
     EXPECT_TRUE(person_.sees("alarm/message"));
-    EXPECT_FALSE(status().position_known); // the arm went on for a while, and nobody saw where to
+    EXPECT_FALSE(status().position_known); // the arm went on for a while, to an unknown position
     EXPECT_TRUE(person_.sees("inspector/joints/not_known"));
     keep("pulled");
 
     bench_.pmac.pull_plug(false);
     const double plugged = bench_.pmac.time();
     ASSERT_TRUE(person_.live_until([&] { return bench_.pmac.time() > plugged + 0.5; }));
-    EXPECT_NEAR(bench_.pmac.degrees(2), stopped, near_deg); // nothing moves by itself
+    EXPECT_NEAR(bench_.pmac.degrees(2), stopped, near_deg); // nothing moves without a command
     EXPECT_FALSE(bench_.pmac.any_power());
     person_.click("hand/connection/machine_reset");
     ASSERT_TRUE(person_.live_until([&] { return bench_.is(DriverState::idle); }));

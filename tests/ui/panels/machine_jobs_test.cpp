@@ -156,7 +156,7 @@ TEST_F(MachineJobs, BeginAtALineBehindAnApproachThatWasShownFirst) {
 
     EXPECT_THAT(person.refusal("inspector/job/machine_run"), HasSubstr("The position may be lost"));
     person.keep("machine-from-line-position");
-    person.click("inspector/job/begin/trust"); // this Grbl was switched on, and nobody homed it
+    person.click("inspector/job/begin/trust"); // this Grbl was switched on and not homed
     ASSERT_TRUE(person.live_until([&] { return !person.sees("inspector/job/begin/trust"); }));
     test::press_run(person);
     double farthest = 0.0;

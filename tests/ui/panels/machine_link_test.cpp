@@ -134,7 +134,7 @@ TEST_F(MachineLink, MakesALostGrblLinkAgainAndNothingGoesOn) {
     auto [port, grbl] = serve_grbl(0, clock);
     ASSERT_NO_FATAL_FAILURE(lose(grbl, port));
 
-    // Nobody is there yet: that is told, and it can be connected later.
+    // There is no answer yet: that is shown, and it can be connected later.
     person.frames(3);
     person.click("inspector/connection/machine_reconnect");
     ASSERT_TRUE(person.live_until([this] { return machine().link == LinkState::none; }));

@@ -75,7 +75,7 @@ protected:
         if (person.app().look().connection.connected()) {
             test::press_run(person, "lower/queue/queue_run_next");
         } else {
-            person.click("lower/queue/queue_run_next"); // of the virtual machine nobody is asked
+            person.click("lower/queue/queue_run_next"); // the virtual machine needs no confirmation
         }
         ASSERT_TRUE(person.live_until(
             [&] { return queue(person)[place].state == wanted && !person.app().look().job.running; }, 60.0))

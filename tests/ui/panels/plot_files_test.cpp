@@ -1,4 +1,5 @@
-// One file after another in the Plot & Picture workspace: what is shown, told and sent is of the open one.
+// One file after another in the Plot & Picture workspace: what is shown, reported and sent is of the open
+// one.
 #include "core/base/files.h"
 #include "core/plot/decode_path.h"
 #include "core/plot/point_file.h"

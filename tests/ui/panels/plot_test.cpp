@@ -305,7 +305,7 @@ TEST(PlotWorkspace, MaterialsGiveTheirValuesAndTheirSources) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     bench.person.click("lower/materials/material0");
     bench.settle();
-    // Hardwood: 0.003 in for 1/8 inch, in proportion for 3 mm, two edges, 10,000 a minute.
+    // Hardwood: 0.003 in for 1/8 inch, in proportion for 3 mm, two edges, 10,000 per minute.
     EXPECT_NEAR(bench.plot().settings().level.cutting, 24.0, 1e-9);
     EXPECT_NEAR(bench.made().levels.front().plunging, 8.0, 1e-9);
     EXPECT_EQ(bench.plot().settings().spindle_rpm, 10'000.0);
@@ -348,7 +348,7 @@ TEST(PlotWorkspace, WritesThePathThatIsReadBackExactlyAndReplacesNoFile) {
     EXPECT_EQ(*bench.made().path, drawn);
 }
 
-/// Where samples ship nobody looks for programs, and perhaps nobody may write.
+/// Users do not look for programs in the folder of the shipped samples, which may not be writable.
 TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     const auto programs_there = [] {

@@ -18,7 +18,7 @@
 
 namespace millwright::test {
 
-/// A link whose plug can be pulled: nothing comes through, and neither side is told.
+/// A link whose plug can be pulled: nothing comes through, and neither side is notified.
 class Plug final : public links::Link {
 public:
     explicit Plug(std::unique_ptr<links::Link> inner) : inner_(std::move(inner)) {}

@@ -65,7 +65,7 @@ void act(Person& person, const std::string& line) {
         person.hover({5.0F, 990.0F});
         person.keep(path);
     } else {
-        ADD_FAILURE() << "nobody can " << line;
+        ADD_FAILURE() << "unknown step: " << line;
     }
     person.frames();
 }

@@ -110,7 +110,7 @@ TEST(ProgramOnItsMachine, KnowsTheAxesOfLongProgramsWithoutRotaryAxes) {
     expect_axes(person, {0.1 * (n % 1000), 0.01 * (n / 1000), 0.0}, 1e-2);
     EXPECT_TRUE(person.sees("inspector/position/axes/X"));
     open_for(person, "ac-table", text + "M2\n");
-    EXPECT_TRUE(axes(person).empty()); // nobody kept where its tables stand
+    EXPECT_TRUE(axes(person).empty()); // the positions of its tables are not stored
 }
 
 TEST(ProgramOnItsMachine, ShowsTheConnectedMachineInTheMachineWorkspace) {

@@ -102,7 +102,7 @@ TEST_F(StartSheetAtGrbl, ShowsWhatWillMoveAndEnterStartsIt) {
     }
     EXPECT_THAT(person.desktop().ui().cut_texts(), testing::IsEmpty());
     EXPECT_FALSE(person.sees("dialogs/start/Z"));    // it does not move
-    EXPECT_TRUE(person.sees("dialogs/start/doubt")); // this Grbl was switched on, and nobody homed it
+    EXPECT_TRUE(person.sees("dialogs/start/doubt")); // this Grbl was switched on and not homed
     const auto check = person.app().look().start_check;
     EXPECT_DOUBLE_EQ(check->program_check.ranges[0].max, 40.0);
     EXPECT_DOUBLE_EQ(check->program_check.ranges[1].max, 12.5);

@@ -92,7 +92,7 @@ TEST(Typing, KeepsCommandsAndCharactersApart) {
     EXPECT_THAT(typing.next(true, up), ElementsAre(press(GLFW_KEY_V, GLFW_MOD_CONTROL)));
 }
 
-/// A text field as ImGui 1.86 has it: characters first, then keys, each once a frame.
+/// A text field as ImGui 1.86 has it: characters first, then keys, each once per frame.
 struct Field {
     std::string text;
     std::set<int> down, seen;

@@ -1,4 +1,4 @@
-// What the panels that move a machine by hand have in common: when that is allowed, and how it is told.
+// What the panels that move a machine by hand have in common: when that is allowed, and how it is shown.
 #pragma once
 
 #include "ui/actions/at_rest.h"

@@ -209,8 +209,8 @@ private:
             canvas.view);
     }
 
-    /// An arc or a line for each joint's range, the part that is left behind in the neutral colour, a mark
-    /// where it stands; all in the signal colour of warnings near a limit.
+    /// An arc or a line for each joint's range, the part that is left behind in the neutral colour, a mark at
+    /// its position; all in the signal colour of warnings near a limit.
     void draw_ranges(const Canvas& canvas, const JointPositions& joints) const {
         const arm::ArmModel& arm = look_->arm();
         JointPositions at = joints;

@@ -45,7 +45,7 @@ public:
     void set_caption(std::string caption) { caption_ = std::move(caption); }
     /// Takes in everything at the next draw().
     void fit() { sight().fitted = false; }
-    /// The same of every camera, or of those alone that nobody has turned since they were fitted.
+    /// The same of every camera, or of those alone that have not been turned since they were fitted.
     void fit_all();
     void fit_unturned();
 

@@ -77,7 +77,7 @@ void GrblSession::ask_next() {
     window_.push({LineKind::query, std::move(text), -1, 0.0});
 }
 
-/// A program or a command is done; what it changed is asked for before anybody is told.
+/// A program or a command is done; what it changed is asked for before that is reported.
 void GrblSession::finish(double now) {
     if (change_ && at_ == Activity::program) { // lines of our own: the program's end is far
         ask_again(Stage::ready, now);
@@ -127,7 +127,7 @@ void GrblSession::finish_asking(const StatusMessage& report) {
                                        : name() + " is locked: home the machine, or unlock it without moving";
 }
 
-/// After the link was made: nobody knows what happened before.
+/// After the link was made: what happened before is unknown.
 void GrblSession::doubt_what_was_found(const StatusMessage& report) {
     if (report.state == MachineState::alarm) {
         doubt_.arise(name() + " was found locked: after an alarm, or since it was switched on");

@@ -10,7 +10,7 @@ namespace millwright::drivers::grbl {
 class PositionDoubt {
 public:
     /// `why`: a part of a sentence, as "the controller was reset". The last reason is the one that is shown.
-    /// `lost`: something has happened that costs the position; false: nobody has confirmed it so far.
+    /// `lost`: something has happened that costs the position; false: it has not been confirmed so far.
     void arise(std::string why, bool lost = true);
     /// A person has given these axes a zero where the tool stands. All of `machine_axes` end the doubt.
     void zeroed(std::string_view axes, std::string_view machine_axes);
@@ -28,7 +28,7 @@ public:
     /// Empty: the position is not in doubt.
     [[nodiscard]] const std::string& why() const { return why_; }
     [[nodiscard]] bool lost() const { return lost_; }
-    /// Why it was in doubt before a person confirmed it; empty: nobody had to.
+    /// Why it was in doubt before a person confirmed it; empty: no confirmation was needed.
     [[nodiscard]] const std::string& confirmed() const { return confirmed_; }
 
 private:

@@ -87,7 +87,7 @@ void ShellSession::handle(const Reply& reply, double now) {
     }
     const Request request = outstanding_.front();
     outstanding_.pop_front();
-    last_heard_ = now; // an echo is no answer: a LinuxCNC that knows nobody echoes too
+    last_heard_ = now; // an echo is no answer: a LinuxCNC without a session echoes too
     if (reply.kind == Reply::Kind::refused) {
         refused(request.text, now);
         return;
@@ -119,7 +119,7 @@ void ShellSession::refused(const std::string& request, double now) {
     fail("LinuxCNC refuses '" + request + "'", now);
 }
 
-/// It may still hear what it does not answer, so a motion is told to end.
+/// It may still hear what it does not answer, so a motion is ordered to end.
 void ShellSession::fall_silent() {
     const bool moves = active() || stage_ == Stage::stopping;
     if (moves) {

@@ -49,7 +49,7 @@ Activity ShellSession::activity() const {
     }
 }
 
-/// 0: not told.
+/// 0: not reported.
 int ShellSession::work_system() const {
     constexpr std::array<std::string_view, 9> systems = {
         " G54 ", " G55 ", " G56 ", " G57 ", " G58 ", " G59 ", " G59.1 ", " G59.2 ", " G59.3 "};

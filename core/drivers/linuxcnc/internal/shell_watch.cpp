@@ -53,7 +53,7 @@ bool ShellSession::watch_power(double now) {
                    off ? "LinuxCNC is in emergency stop or switched off: inspect the machine, then reset it"
                        : "");
         }
-        if (stage_ == Stage::ready && !idle_now()) { // before anybody is told that it is connected
+        if (stage_ == Stage::ready && !idle_now()) { // before it is reported as connected
             finish(Stage::foreign, somebody_else);
         }
         return false;
@@ -138,7 +138,7 @@ void ShellSession::watch_program(double now) {
             const auto at = std::ranges::lower_bound(listing_.line_of_block, static_cast<int>((*line)[0]));
             bound = static_cast<int>(at - listing_.line_of_block.begin());
         }
-        constexpr double same_place = 0.002; // mm or rad: more than the last digit that is told
+        constexpr double same_place = 0.002; // mm or rad: more than the last digit that is reported
         const double way = (position_ - program_start_).cwiseAbs().maxCoeff();
         executed_ = std::max(executed_, left_start_ ? std::min(bound, last_bound_) : 0);
         last_bound_ = bound;
@@ -194,7 +194,7 @@ void ShellSession::watch_jog(double now) {
 /// At rest where it was sent; elsewhere, as after an early stop, only after a while: a busy LinuxCNC shows
 /// the same position more than once.
 bool ShellSession::jog_is_over(double now) const {
-    constexpr double same_place = 0.002; // mm: more than the last digit of an inch that is told
+    constexpr double same_place = 0.002; // mm: more than the last reported digit of an inch
     constexpr double long_enough = 0.5;  // s
     const internal::JogFeed::Axes& target = jog_feed_.target();
     const double away = (position_.head(target.size()) - target).norm();

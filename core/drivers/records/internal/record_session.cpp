@@ -217,7 +217,7 @@ void RecordSession::executed() {
     }
 }
 
-/// Blocks that the table is not told, as the spindle's, are executed with the next that it is.
+/// Blocks that are not sent to the table, as the spindle's, are executed with the next that is sent.
 void RecordSession::claim_executed() {
     status_.executed_blocks = next_;
     if (trajectory_) {

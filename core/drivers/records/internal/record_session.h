@@ -1,4 +1,4 @@
-// The conversation with a table that takes one record a move: the next one goes when the last was answered,
+// The conversation with a table that takes one record per move: the next one goes when the last was answered,
 // or, where nothing is answered, when the move must be over. Lengths mm, times s.
 #pragma once
 
@@ -62,7 +62,7 @@ private:
     struct UnderWay {
         kinematics::AxisPositions target;
         double over = 0.0;   ///< when it should be over
-        bool record = false; ///< else a dwell, of which nobody answers
+        bool record = false; ///< else a dwell, which is not answered
         double sent = 0.0;   ///< of a record: when
         double way = 0.0;    ///< of a record: how long its way takes at its speed
     };

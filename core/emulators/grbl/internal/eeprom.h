@@ -57,7 +57,7 @@ struct Eeprom {
 };
 
 /// Those that Grbl 1.1 is delivered with, but for a machine that is faster: 3000 mm/min, 200 mm/s^2.
-/// Rotary axes: 3600 degrees a minute.
+/// Rotary axes: 3600 degrees per minute.
 [[nodiscard]] std::vector<Setting> default_settings(const Build& build);
 [[nodiscard]] Eeprom default_eeprom(const Build& build);
 

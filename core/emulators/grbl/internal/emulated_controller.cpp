@@ -12,7 +12,7 @@ namespace millwright::emulators::internal {
 
 namespace {
 
-constexpr double line_time = 0.0003; // s: the real one reads about three thousand lines a second
+constexpr double line_time = 0.0003; // s: the real one reads about three thousand lines per second
 constexpr double never = std::numeric_limits<double>::max();
 
 } // namespace
@@ -55,7 +55,7 @@ void EmulatedController::advance(double seconds) {
     }
 }
 
-/// The next time at which something happens by itself, apart from the end of a segment.
+/// The next time at which something happens without input, apart from the end of a segment.
 double EmulatedController::next_event() const {
     double next = never;
     const auto consider = [&](double time) { next = time > time_ ? std::min(next, time) : next; };

@@ -16,7 +16,7 @@ constexpr int max_rate = 110;
 constexpr int max_acceleration = 120;
 constexpr int junction_deviation = 11;
 constexpr double percent = 0.01;
-constexpr double straight = 0.999999; // cosine beyond which a corner is none, or a full turn
+constexpr double straight = 0.999999; // cosine beyond which a corner counts as straight, or as a full turn
 
 double length_of(const Axes& v) {
     return std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));

@@ -12,8 +12,8 @@ public:
     [[nodiscard]] double arrival(double now);
     /// Interrupts are off from `begin`, for each of `pauses` in turn, and on for a moment between two pauses.
     void interrupts_off(double begin, const std::vector<double>& pauses);
-    /// False: the byte that arrives then is lost, because the UART holds two bytes and nobody fetches them.
-    /// To be asked once per byte, in the order of arrival.
+    /// False: the byte that arrives then is lost, because the UART holds two bytes that have not been
+    /// fetched. To be asked once per byte, in the order of arrival.
     [[nodiscard]] bool takes(double arrival);
 
 private:

@@ -203,7 +203,7 @@ LinuxCncTask::Program LinuxCncTask::read(const std::string& text) const {
     cut_at_limits(result, made.program);
     for (Block& block : made.program.blocks) {
         if (block.kind == program::BlockKind::pause && block.pause == program::PauseKind::tool_change) {
-            block.kind = program::BlockKind::spindle_off; // its tool changer waits for nobody
+            block.kind = program::BlockKind::spindle_off; // its tool changer does not wait for an operator
         }
     }
     if (made.program.blocks.empty()) { // nothing moves, and that takes no time

@@ -55,7 +55,7 @@ public:
     /// The line in execution, or the last one; 0 before any program. While a program begins, and after it is
     /// aborted, for a moment the last line with a move that was read, as the real one.
     [[nodiscard]] int program_line() const { return clock_.now() < shows_read_until_ ? read_line_ : line_; }
-    /// The oldest that nobody has taken; "OK" if there is none.
+    /// The oldest that has not been taken; "OK" if there is none.
     [[nodiscard]] std::string take_error();
     [[nodiscard]] std::string take_message();
     [[nodiscard]] const LinuxCncTruth& truth() const { return truth_; }

@@ -27,7 +27,7 @@ struct CommandRow {
     Arguments arguments = Arguments::numbers;
     Count count;
     Handler follow = nullptr; ///< none: it is left out
-    bool moves = false;       ///< the pen: where this is wrong, nobody knows where it would be
+    bool moves = false;       ///< the pen: where this is wrong, its position is unknown
     bool places = false; ///< where coordinates lie: where this is wrong, none are known until it is put right
     std::string_view why = {}; ///< it is left out
 };

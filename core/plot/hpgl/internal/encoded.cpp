@@ -104,7 +104,7 @@ private:
         return static_cast<int>(value);
     }
 
-    // Digits from the lowest; the last one is told by its range. Bit 0 is the sign.
+    // Digits from the lowest; the last one is recognised by its range. Bit 0 is the sign.
     double number() {
         double value = 0.0;
         double place = 1.0;

@@ -8,7 +8,7 @@
 namespace millwright::plot::internal {
 namespace {
 
-// A scale beyond these would take HPGL's coordinates (2^30) out of what can still be told apart.
+// A scale beyond these would take HPGL's coordinates (2^30) out of what can still be distinguished.
 constexpr double smallest_scale = 1e-9;
 constexpr double largest_scale = 1e9;
 

@@ -145,7 +145,7 @@ private:
         }
     }
 
-    /// Four samples a pixel become three in place. Adobe's files have 255 for no ink, others 0.
+    /// Four samples per pixel become three in place. Adobe's files have 255 for no ink, others 0.
     void mix_inks(std::vector<JSAMPLE>& row) const {
         constexpr int most = MAXJSAMPLE;
         const bool inverted = jpeg_.saw_Adobe_marker != 0;

@@ -54,7 +54,7 @@ private:
         std::strncpy(self.text_, text, sizeof(self.text_) - 1);
         std::longjmp(self.back_, 1); // NOLINT(modernize-avoid-setjmp-longjmp,cert-err52-cpp)
     }
-    // Warnings are about colour profiles and text, which nobody looks at here; damaged data is an error.
+    // Warnings are about colour profiles and text, which are not used here; damaged data is an error.
     static void on_warning(png_structp, png_const_charp) {}
 
     static void give(png_structp png, png_bytep to, std::size_t count) {

@@ -80,8 +80,8 @@ struct PowerChange {
 /// Whether `line` surely begins no motion: it asks, sets, addresses, defines, or ends a buffer.
 [[nodiscard]] bool begins_nothing(std::string_view line);
 
-/// Whether `line` lets something in the card begin motion that nobody sends: another PLC program, or another
-/// coordinate system than `system`, whose programs are not watched.
+/// Whether `line` lets something in the card begin motion without a command from here: another PLC program,
+/// or another coordinate system than `system`, whose programs are not watched.
 [[nodiscard]] bool may_move_later(std::string_view line, int system);
 
 /// Sets the output of a motor to anything but 0, its loop open.

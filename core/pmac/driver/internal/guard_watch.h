@@ -6,7 +6,7 @@ namespace millwright::pmac::internal {
 class GuardWatch {
 public:
     /// `count`: P1003 of a report, which grows with each scan of the guard while the servo counter runs, and
-    /// is negative while the guard is disarmed. `armed`: as it was told to be before that report.
+    /// is negative while the guard is disarmed. `armed`: as it was set before that report.
     void see(double count, bool armed) {
         const bool runs = count > count_ || count < count_;
         idle_reports_ = runs && (!armed || count > 0.0) ? 0 : idle_reports_ + 1;

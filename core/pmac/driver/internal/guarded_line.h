@@ -17,9 +17,9 @@ public:
     enum class Outcome {
         none,     ///< still on its way, or nothing was sent
         answered, ///< accepted; `lines` is what it said
-        refused,  ///< `error` is the card's number, 0 if it told none
-        unsent,   ///< the card was told to forget it: it did not come as it was sent
-        lost      ///< nobody knows whether the card has done it
+        refused,  ///< `error` is the card's number, 0 if it gave none
+        unsent,   ///< the card was ordered to forget it: it did not come as it was sent
+        lost      ///< it is unknown whether the card has done it
     };
     struct Reply {
         Outcome outcome = Outcome::none;
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] Reply poll(double now);
     [[nodiscard]] std::string take_output();
     void forget();
-    /// Waits so much longer, s: nobody could be asked in that time.
+    /// Extends the wait by `seconds`: the card could not be asked in that time.
     void leave_out(double seconds, double now);
 
 private:

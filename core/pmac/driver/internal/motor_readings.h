@@ -1,4 +1,4 @@
-// What a PMAC tells of each motor beyond position and status: how far it lags, what its amplifier is told,
+// What a PMAC reports of each motor beyond position and status: how far it lags, what its amplifier is given,
 // and by which I-variables it may move.
 #pragma once
 
@@ -27,14 +27,15 @@ public:
     void give_up() { told_ = false; }
     /// Ix22 in counts/ms, as it was sent.
     void set_jog_speed(std::size_t axis, double counts_per_ms) { jog_speeds_[axis] = counts_per_ms; }
-    /// Ix22 in counts/ms; nothing as long as it was not told.
+    /// Ix22 in counts/ms; nullopt until it is reported.
     [[nodiscard]] std::optional<double> jog_speed(std::size_t axis) const { return jog_speeds_[axis]; }
-    /// The way in which a motor looks for its home, by the sign of Ix23: 1 or -1; 1 where it was not told.
+    /// The way in which a motor looks for its home, by the sign of Ix23: 1 or -1; 1 where it was not
+    /// reported.
     [[nodiscard]] double way_home(std::size_t axis) const { return ways_home_[axis]; }
 
-    /// In the order of the axes; empty as long as nothing was told.
+    /// In the order of the axes; empty until they are reported.
     [[nodiscard]] const std::vector<drivers::MotorReading>& motors() const { return motors_; }
-    /// As the card told last (protections.h); it is a sentence, too, that it did not tell.
+    /// As the card last reported (protections.h); there is a sentence, too, if it did not report.
     [[nodiscard]] std::vector<std::string> protections_off() const;
     /// The card's and the joints', the narrower ones.
     [[nodiscard]] std::vector<drivers::MachineLimits::Axis> limits() const;
@@ -43,11 +44,11 @@ private:
     [[nodiscard]] double radians(std::size_t axis, double counts) const;
 
     std::vector<PmacAxis> axes_;
-    std::vector<int> outputs_;                         ///< addresses of the converters; -1: not told yet
+    std::vector<int> outputs_;                         ///< addresses of the converters; -1: not reported yet
     std::vector<drivers::MachineLimits::Axis> limits_; ///< of the card: rad, s
     std::vector<std::optional<double>> jog_speeds_;
     std::vector<double> ways_home_;
-    std::vector<std::optional<MotorProtections>> protections_; ///< nothing: not told
+    std::vector<std::optional<MotorProtections>> protections_; ///< nullopt: not reported
     std::vector<drivers::MotorReading> motors_;
     bool told_ = true;
 };

@@ -88,7 +88,7 @@ void PmacSession::check_guard(const std::string& line) {
     }
 }
 
-/// While a buffer is open nobody is heard, and the guard is disarmed: nothing may move then.
+/// While a buffer is open no sign of life is heard, and the guard is disarmed: nothing may move then.
 void PmacSession::check_buffers(const std::vector<std::string>& lines) const {
     bool stored = false, may_move = false;
     for (const std::string& line : lines) {
@@ -187,7 +187,7 @@ bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
     return true;
 }
 
-/// What a program of the card does nobody here has read: it may enable motors.
+/// The content of a program of the card is unknown here: it may enable motors.
 void PmacSession::check_programs(const std::vector<std::string>& lines, bool file) const {
     if (lines_may_power_ || enabled()) {
         return;

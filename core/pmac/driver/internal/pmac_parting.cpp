@@ -1,5 +1,5 @@
-// Before the link is dropped: what moves comes to rest, and motors lose the power that nobody would watch
-// over.
+// Before the link is dropped: what moves comes to rest, and motors lose the power that would no longer be
+// monitored.
 #include "core/pmac/driver/internal/pmac_session.h"
 #include "core/pmac/driver/internal/watchdog.h"
 
@@ -34,7 +34,7 @@ bool PmacSession::takes_power() const {
 
 void PmacSession::leave(double now) {
     if (stage_ == Stage::closed) {
-        return; // what was told at the parting stands
+        return; // what was reported at the parting stands
     }
     farewell_.clear();
     if (stage_ == Stage::greeting) {
@@ -54,7 +54,7 @@ void PmacSession::leave(double now) {
     part(now);
 }
 
-/// Once nothing brakes any more: kills, until the card has told that nothing has power.
+/// Once nothing brakes any more: kills, until the card has reported that nothing has power.
 void PmacSession::part(double now) {
     if (!leaving_ || stage_ == Stage::stopping) {
         return;

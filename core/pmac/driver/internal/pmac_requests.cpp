@@ -88,7 +88,7 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     executed_ = 0;
     mark_ = 0.0;
     marks_tell_ = std::none_of(lines.begin(), lines.end(), may_leave_order);
-    armed_ = false; // nobody is heard while a buffer is open
+    armed_ = false; // no sign of life is heard while a buffer is open
     for (const std::string& line : {std::string(disarm_watchdog),
                                     std::string("CLOSE"),
                                     fmt::format("OPEN PROG {}", settings_.program),

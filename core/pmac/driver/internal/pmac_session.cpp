@@ -18,7 +18,7 @@ namespace millwright::pmac::internal {
 namespace {
 
 constexpr double poll_interval = 0.02;    // s
-constexpr double reading_interval = 0.08; // s: ten times a second with what comes between
+constexpr double reading_interval = 0.08; // s: ten times per second with what comes between
 constexpr int most_tries = 3;             // of a line that moves, each after a look at the card
 constexpr char repeats_or_not = '\x14';   // ^T
 constexpr double greeting_pause = 0.1;    // s: an answer in whatever mode the card is in
@@ -444,7 +444,7 @@ void PmacSession::next_command() {
     }
     const bool opens = starts_with_word(command_lines_.front(), "OPEN");
     opened_by_ = opens ? command_lines_.front() : opened_by_;
-    if (armed_ && opens) { // nobody is heard while a buffer is open
+    if (armed_ && opens) { // no sign of life is heard while a buffer is open
         ask(disarm_watchdog, Kind::watch);
         armed_ = false;
     } else if (!armed_ && !buffer_open_ && !opens && stage_ != Stage::alarm &&
@@ -514,7 +514,7 @@ std::optional<std::vector<std::string>> PmacSession::protections_off() const {
     return off;
 }
 
-/// From now on the card stops by itself when it no longer hears us.
+/// From now on the card's watchdog stops the motors when it no longer hears us.
 void PmacSession::arm() {
     ask(arm_watchdog, Kind::watch);
     armed_ = true;

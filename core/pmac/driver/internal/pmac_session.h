@@ -79,7 +79,7 @@ public:
     /// Every motor has found its zero since the card started.
     [[nodiscard]] bool position_known() const;
     [[nodiscard]] bool enabled() const;
-    /// By the card's I-variables; what it has not told yet is missing.
+    /// By the card's I-variables; what it has not reported yet is missing.
     [[nodiscard]] std::vector<drivers::MachineLimits::Axis> limits() const { return readings_.limits(); }
     /// As MotorReadings; nothing while the card is being asked again.
     [[nodiscard]] std::optional<std::vector<std::string>> protections_off() const;
@@ -261,7 +261,7 @@ private:
     std::string message_;
     bool link_lost_ = false;
     bool heard_ = false;  ///< something since the link was opened
-    bool unseen_ = false; ///< silent since the last report: what it told is old
+    bool unseen_ = false; ///< silent since the last report: what it reported is old
 
     std::deque<Request> queue_;
     std::optional<Request> sent_;
@@ -283,16 +283,16 @@ private:
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
     int program_lines_ = 0, executed_ = 0;
-    std::string run_refusal_{}; ///< until the card has told whose loop is open
+    std::string run_refusal_{}; ///< until the card has reported whose loop is open
     bool marks_tell_ = false;   ///< lines are executed in their order
     bool held_ = false;
     bool armed_ = false;        ///< the watchdog in the card
     bool mark_is_ours_ = false; ///< P1000 was set back since the watchdog was armed
-    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion that nobody sends
+    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion without a command
     int quiet_polls_ = 0;
     int off_target_polls_ = 0; ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for
-    bool unexplained_ = false; ///< a motor was killed, and the card has not told yet by what
+    bool unexplained_ = false; ///< a motor was killed, and the card has not reported yet by what
     bool was_home_ = false;    ///< to tell when the card forgets
     std::size_t homing_axis_ = 0;
     double homing_from_ = 0.0;           ///< counts

@@ -63,7 +63,7 @@ void PmacSession::watch_stage() {
 }
 
 /// Of the first motor that stands with power and is not in its place; by the following error that the card
-/// told last.
+/// last reported.
 std::string PmacSession::off_target_sentence() const {
     const auto off_target =
         std::find_if(motors_.begin(), motors_.end(), [](const MotorState& m) { return !m.in_place(); });

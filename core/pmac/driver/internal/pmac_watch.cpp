@@ -223,7 +223,7 @@ void PmacSession::watch_guard() {
     }
 }
 
-/// By what the card told last of the following errors, if that was just now.
+/// By what the card last reported of the following errors, if that was just now.
 void PmacSession::watch_following(double now) {
     constexpr double fresh = 0.3; // s
     const std::vector<drivers::MotorReading>& readings = readings_.motors();
@@ -278,7 +278,7 @@ void PmacSession::watch_zone() {
     }
 }
 
-/// With a wrong gain or offset a motor goes where nobody sent it, and brakes do not hold it.
+/// With a wrong gain or offset a motor goes where it was not sent, and brakes do not hold it.
 void PmacSession::watch_rest() {
     constexpr double slack_deg = 2.0;
     const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::moving_by_command);

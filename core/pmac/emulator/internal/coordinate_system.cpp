@@ -171,7 +171,7 @@ void CoordinateSystem::reset(bool definitions) {
     *this = fresh;
 }
 
-/// Where the axes are by what the motors were told.
+/// Where the axes are by what the motors were commanded.
 Axes CoordinateSystem::axes_now() const {
     Eigen::Matrix<double, motors, axis_count> factors = Eigen::Matrix<double, motors, axis_count>::Zero();
     Eigen::Matrix<double, motors, 1> counts = Eigen::Matrix<double, motors, 1>::Zero();

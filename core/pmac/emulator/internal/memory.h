@@ -37,7 +37,7 @@ struct Pointer {
     std::string text = "*"; ///< as it is reported
 };
 
-/// Behind "->"; nothing if it is none.
+/// Behind "->"; nullopt if it is no pointer.
 [[nodiscard]] std::optional<Pointer> take_pointer(Words& words);
 
 class MemoryMap {

@@ -1,5 +1,5 @@
-// One motor of a PMAC and what hangs on it: trajectory by itself, servo loop, protections, home search.
-// Counts and s inside; what I-variables say comes in as MotorSettings.
+// One motor of a PMAC and what hangs on it: its own trajectory, servo loop, protections, home search. Counts
+// and s inside; what I-variables say comes in as MotorSettings.
 #pragma once
 
 #include "core/pmac/emulator/internal/ramp.h"

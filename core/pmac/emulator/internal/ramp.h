@@ -28,7 +28,7 @@ struct JogRules {
     [[nodiscard]] Ramp ramp(double change) const;
 };
 
-/// One motor's way by itself: changes of speed one after the other, and the way at constant speed between.
+/// The path of a single motor: changes of speed one after the other, and the way at constant speed between.
 class Profile {
 public:
     struct Part {

@@ -120,7 +120,8 @@ links::FaultSpec faults_of(GrblFault kind, Random& random, std::uint64_t seed) {
     return spec;
 }
 
-/// A person who now and then holds, resumes, overrides, goes block by block, stops. Asked 50 times a second.
+/// A person who now and then holds, resumes, overrides, goes block by block, stops. Asked 50 times per
+/// second.
 class Person {
 public:
     Person(jobs::Dispatcher& dispatcher, Driver& driver, Random& random)

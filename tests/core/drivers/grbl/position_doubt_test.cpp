@@ -196,7 +196,7 @@ TEST(GrblPositionDoubt, IsLoggedAndKeepsAJobFromBeginningAtALine) {
     const auto lines = wire.grbl.truth().lines.size();
     try {
         (void)dispatcher.run(rest, {});
-        FAIL() << "it began at a line although nobody knows where the machine stands";
+        FAIL() << "it began at a line although the machine's position is unknown";
     } catch (const Error& error) {
         EXPECT_THAT(to_text(error.diagnostic()), HasSubstr("Line 20 could start at the wrong position"));
     }

@@ -92,7 +92,7 @@ TEST(GrblSession, KeepsThePlannerFullAtAThousandBlocksASecond) {
         starved += x > 1.0 && x < 190.0 && wire.grbl.planned_blocks() < 8 ? 1 : 0;
     }
     EXPECT_EQ(starved, 0);
-    EXPECT_LT(steps, 2600); // 2000 blocks at 1000 a second, and the end
+    EXPECT_LT(steps, 2600); // 2000 blocks at 1000 per second, and the end
 }
 
 TEST(GrblSession, HoldsAndResumes) {

@@ -27,7 +27,7 @@ std::string short_blocks() {
 
 struct Measured {
     int least_planned = streamed_blocks;
-    double rate = 0.0; ///< blocks a second, between the first and the last quarter
+    double rate = 0.0; ///< blocks per second, between the first and the last quarter
 };
 
 Measured stream(double delay) {

@@ -223,7 +223,7 @@ TEST(GrblToolSafety, AHoldAtTheMachineIsShownAndEndedAtEveryMoment) {
         wire.session.resume(wire.now);
         ASSERT_TRUE(wire.run_to_change()) << moment;
         wire.run_until([] { return false; }, 2.0);
-        EXPECT_TRUE(wire.waits()) << moment << ": nobody has said that the tool is changed";
+        EXPECT_TRUE(wire.waits()) << moment << ": the tool change is not confirmed";
         wire.session.resume(wire.now);
         EXPECT_TRUE(wire.run_to_end()) << moment;
         EXPECT_EQ(wire.state(), DriverState::idle) << wire.session.status().message;

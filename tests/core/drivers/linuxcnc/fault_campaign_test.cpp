@@ -113,7 +113,7 @@ public:
         }
         const bool lost = wire_.session.link_lost();
         if (lost && wire_.session.status().message.find("inspect the machine") == std::string::npos) {
-            wrong("nobody was told that LinuxCNC may go on");
+            wrong("no warning that LinuxCNC may go on");
         }
         check_log(begin);
         std::filesystem::remove(outcome_.log_file);
@@ -141,7 +141,7 @@ private:
         }
     }
 
-    /// A person, and somebody at the machine. Asked 50 times a second.
+    /// A person, and somebody at the machine. Asked 50 times per second.
     void act(jobs::Dispatcher& dispatcher, Driver& driver, const DriverStatus& now) {
         if (kind_ == LinuxCncFault::aborted && ++looks_ == abort_at_) {
             wire_.linuxcnc.abort_at_the_machine();

@@ -108,7 +108,7 @@ public:
             any.open();
             port = any.port();
         }
-        ::chmod(folder.c_str(), 0777); // as root its real-time part runs as nobody
+        ::chmod(folder.c_str(), 0777); // as root its real-time part runs as the user "nobody"
         write_file(folder / "sim.ini", configuration(port, folder.string()));
         write_file(folder / "sim.hal", wires);
         write_file(folder / "sim.tbl", "T1 P1 D3 ;mill\n");
@@ -162,11 +162,10 @@ private:
     [[noreturn]] void run() const {
         ::setpgid(0, 0);
         const int out = ::open((folder_ / "out.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-        ::dup2(::open("/dev/null", O_RDONLY), 0); // it asks nobody
+        ::dup2(::open("/dev/null", O_RDONLY), 0); // it asks no questions
         ::dup2(out, 1);
         ::dup2(out, 2);
-        ::unsetenv(
-            "DISPLAY"); // else a lock that a dead LinuxCNC left is asked about in a window that nobody sees
+        ::unsetenv("DISPLAY"); // else a lock that a dead LinuxCNC left is asked about in an invisible window
         ::setenv("HOME", folder_.c_str(), 1);
         ::setenv("RTAPI_FIFO_PATH", (folder_ / "fifo").c_str(), 1);
         if (::getuid() == 0) {

@@ -102,7 +102,7 @@ TEST(RecordSession, GivesEachMoveOnceAndInOrder) {
     }
 }
 
-// Nobody named X and Y yet: the tool goes straight up from where it stands.
+// X and Y were not named yet: the tool goes straight up from its position.
 TEST(RecordSession, LeavesAxesWhereTheyAreThatNobodyHasNamed) {
     const AxisPositions at = AxisPositions{{300.0, 300.0, -1.0}};
     const test::ScratchFolder folder;
@@ -261,7 +261,7 @@ TEST(AnswerPace, TimeTellsNothingOfATableThatAnswersWhatItHasTaken) {
     EXPECT_FALSE(when_there.fits(1.0, 0.1));
 }
 
-// The spindle is a person's, and the table was told nothing of it.
+// The spindle is a person's, and the table was sent nothing of it.
 TEST(RecordSession, NothingIsExecutedBeforeTheTableHasObeyedSomething) {
     emulators::TableEmulator table = table_of(answered_records(), {.refuses = 1});
     Wire wire(table, answered_records());
@@ -290,7 +290,7 @@ TEST(RecordSession, DoesNotGuessWhereARelativeTableStands) {
     EXPECT_EQ(wire.session.status().position, AxisPositions(Vec3(1.0, 2.0, 3.0)));
 }
 
-// The table is told nothing more, but goes where the last record says: from what is shown the next way could
+// The table is sent nothing more, but goes where the last record says: from what is shown the next way could
 // lead through the work.
 TEST(RecordSession, BeginsNothingAfterARecordThatWasOnItsWayBeforeAPersonHasLooked) {
     const jobs::Job job = job_of(zigzag_without_equal_neighbours(20));

@@ -250,7 +250,7 @@ TEST(StreamDriver, EndsInAnAlarmWhenItsLinkBreaksAndGoesOnOnlyWhenAsked) {
     test::wait_until([&] { return driver.status().state == DriverState::alarm; });
     EXPECT_THAT(driver.status().message, HasSubstr("the link was lost"));
     EXPECT_THROW((void)driver.command("G0 X0"), Error);
-    EXPECT_THROW(driver.reset(), Error); // nobody is there
+    EXPECT_THROW(driver.reset(), Error); // no machine is connected
     links::TcpServer again(port);
     again.open();
     driver.reset();

@@ -1,4 +1,4 @@
-// The planner, told the settings of a Grbl, against the time that the emulated Grbl takes: two programs that
+// The planner, given the settings of a Grbl, against the time that the emulated Grbl takes: two programs that
 // share nothing but the settings.
 #include "core/base/units.h"
 #include "core/emulators/grbl/grbl_emulator.h"

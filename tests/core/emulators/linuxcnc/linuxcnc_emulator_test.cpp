@@ -158,7 +158,7 @@ TEST_F(Conversation, StandsAtOnceInTheEmergencyStop) {
     emulator.advance(10.0);
     EXPECT_EQ(emulator.position(), stopped);
     emulator.power_cycle();
-    EXPECT_EQ(answer("get estop"), "get estop\r\n"); // it knows nobody
+    EXPECT_EQ(answer("get estop"), "get estop\r\n"); // it has no session
 }
 
 } // namespace

@@ -91,7 +91,7 @@ Accessories accessories_after(const program::Program& program, int count) {
     return now;
 }
 
-/// Off the part, then across, then down: told from samples of the motion alone.
+/// Off the part, then across, then down: recognised from samples of the motion alone.
 void expect_safe(const Job& rest, int approach, const AxisPositions& start) {
     const motion::Trajectory motion = motion::plan(*rest.program, *rest.machine, rest.planner, {}, start);
     const program::RetractAxis up = program::retract_axis(*rest.machine);

@@ -138,7 +138,7 @@ TEST(SharedLog, IsWrittenByTwoThreadsLineByLine) {
         bench.log->write(executed);
     }
     driver.join();
-    const ReadLog read = bench.read(); // throws for a line that is none
+    const ReadLog read = bench.read(); // throws for an invalid line
     EXPECT_EQ(std::ranges::count(read.records, LogEvent::executed, &LogRecord::event), 2000);
     EXPECT_EQ(read.allowed_blocks(), logged_blocks);
     EXPECT_TRUE(std::ranges::is_sorted(read.records, {}, &LogRecord::executed_blocks));

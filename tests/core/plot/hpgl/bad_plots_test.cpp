@@ -70,9 +70,8 @@ TEST(BadPlots, EachFaultHasItsByteAndItsReason) {
     }
 }
 
-// Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers.
-// What stands behind it was meant for a pen that nobody knows: it went to the one before, and was cut with
-// its depth and its tool.
+// Groups that the author of the thesis's listing cut out: empty commas, dots, fused numbers. What stands
+// behind it was meant for an unknown pen: it went to the one before, and was cut with its depth and its tool.
 TEST(BadPlots, NothingIsDrawnBehindADamagedPenUpToTheNext) {
     for (const char* damaged : {"SP99999999999", "SP3x", "SP1,3", "SPP", "SP300", "SP-1", "SP2.5"}) {
         SCOPED_TRACE(damaged);

@@ -261,7 +261,7 @@ TEST(PictureReader, AveragesWhatIsTooLarge) {
     }
 }
 
-/// The head of a BMP of one bit a pixel, black and white.
+/// The head of a BMP of one bit per pixel, black and white.
 std::string bit_map_head(std::uint32_t width, std::uint32_t height) {
     std::string bytes = bmp_of({1, 1, 3, {0, 0, 0}}, 24, false).substr(0, 54);
     const auto set = [&](std::size_t at, std::uint32_t value) {

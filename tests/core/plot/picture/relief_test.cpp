@@ -416,8 +416,8 @@ TEST(ReliefPlan, IsNotDeeperThanItsPlateUnlessThatIsAllowed) {
     EXPECT_THROW(static_cast<void>(relief_path(field, plan)), Error) << "tabs above the plate";
 }
 
-// A ball has no width at its end: full width at the underside takes its radius more, into what lies below.
-// It told of pen 1, and of the tabs' width with the tool's.
+// A ball has no width at its end: full width at the underside takes its radius more, into what lies below. It
+// reported pen 1, and the tabs' width with the tool's.
 TEST(ReliefPlan, TabsThatDoNotFitAreToldOfTheFrameInTheUsersWidth) {
     const HeightField field = field_of(100, 50, 0.1, [](int, int) { return -0.5; });
     ReliefPlan plan;

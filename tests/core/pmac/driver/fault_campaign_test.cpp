@@ -186,7 +186,7 @@ private:
             if (std::abs(wire_.card.command(static_cast<int>(axis) + 1)) /
                     test::wire_settings().axes[axis].counts_per_degree >
                 most) {
-                wrong("an axis went where nobody sent it");
+                wrong("an axis went where it was not sent");
             }
         }
     }
@@ -204,7 +204,7 @@ private:
         }
     }
 
-    /// What is broken is made whole, and nobody touches anything.
+    /// What is broken is made whole, and nothing is touched.
     void check_quiet() {
         constexpr double soon = 0.6; // s: the card's own kill, and coasting
         wire_.pass(soon);
@@ -233,7 +233,7 @@ private:
                                   program_ ? "program" : "jog"));
             }
         }
-        // over a link that is dead or lies nobody can kill what stands still
+        // over a link that is dead or lies what stands still cannot be killed
         if (alarm && link_works() && wire_.powered()) {
             wrong("an alarm, and a motor has power");
         }

@@ -266,7 +266,7 @@ TEST(PmacLinkGuardF2, AParenthesisInQuotedTextHidesNothingFromIt) {
     EXPECT_LT(runs_on_when_frozen(wire), braking_deg);
 }
 
-// What the card has in its memory nobody here has read.
+// The content of the card's memory is unknown here.
 TEST(PmacLinkGuardF2, AProgramOfTheCardThatSwitchesItOffEndsInAlarm) {
     for (const char* const line :
          {"I5=0", "DISABLE PLC31", "P(1000+1)=0", "P1001=0", "I8=255", "CMD^D", "CMD\"OPEN PLC 31\""}) {
@@ -309,7 +309,7 @@ TEST(PmacLinkGuardF2, MotorsGetTheirPowerBackAtOnceAfterItHasFired) {
     PmacWire wire;
     wire.session.jog(jog_of(0, 80.0, 5.0), wire.now);
     wire.pass(1.0);
-    wire.card.advance(1.0); // nobody is heard
+    wire.card.advance(1.0); // no sign of life arrives
     EXPECT_FALSE(wire.powered());
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 1.0));
     wire.pass(0.5);
@@ -320,7 +320,7 @@ TEST(PmacLinkGuardF2, MotorsGetTheirPowerBackAtOnceAfterItHasFired) {
     EXPECT_EQ(wire.state(), drivers::DriverState::idle);
 }
 
-// Nobody is heard while a buffer is open.
+// No sign of life is heard while a buffer is open.
 TEST(PmacLinkGuardF2, NoBufferIsOpenedBehindALineThatMoves) {
     for (const std::vector<std::string>& lines :
          {std::vector<std::string>{"#1J:9000", "OPEN PROG 3", "CLEAR"},
@@ -406,7 +406,7 @@ TEST(PmacLinkGuardF2, CountsTimeInTheServoCyclesThatTheCardHas) {
 }
 
 // Both ends see the other's words late, as on a busy computer. The power that a line gave was taken again at
-// once, and nobody was told.
+// once, and that was not reported.
 TEST(PmacLinkGuardF2, EveryLineIsASignOfLifeWhereEachWordTakesLong) {
     PmacWire wire({}, false);
     wire.session.let_lines_give_power();
@@ -438,7 +438,7 @@ TEST(PmacLinkGuardF2, PowerThatItTookBehindALineIsTold) {
     wire.session.let_lines_give_power();
     (void)wire.session.command({"#1J/"}, false);
     ASSERT_TRUE(wire.run_until([&] { return wire.card.enabled(1); }, 1.0));
-    wire.card.advance(0.3); // nobody is heard
+    wire.card.advance(0.3); // no sign of life arrives
     EXPECT_FALSE(wire.card.enabled(1));
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 1.0));
     EXPECT_THAT(wire.session.status().message, HasSubstr("received nothing from this computer for 50 ms"));

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 
 TEST(PmacJogF3, IsNoFasterThanItsLimitWhateverIx22Says) {
     PmacWire wire;
-    EXPECT_EQ(wire.card.variable('I', 322), 32.0); // 213 degrees a second
+    EXPECT_EQ(wire.card.variable('I', 322), 32.0); // 213 degrees per second
     wire.session.jog(jog_of(2, 20.0, 500.0), wire.now);
     double fastest = 0.0;
     for (int n = 0; n < 1000; ++n) {
@@ -67,7 +67,7 @@ TEST(PmacJogF3, ThatIsTypedIsNoFasterThanOneByHand) {
         EXPECT_LT(fastest_of_motor_3(wire), 5.1);
         EXPECT_NEAR(wire.card.position(3), 1500.0, 2.0);
         EXPECT_EQ(wire.card.variable('I', 322), 32.0);
-        (void)wire.session.command({"I322=0.3", "#3J:-300"}, false); // 2 degrees a second
+        (void)wire.session.command({"I322=0.3", "#3J:-300"}, false); // 2 degrees per second
         EXPECT_LT(fastest_of_motor_3(wire), 2.1);
         EXPECT_NEAR(wire.card.variable('I', 322), 0.3, 1e-6);
     }
@@ -99,7 +99,7 @@ TEST(PmacJogF3, ThatIsTypedAndWouldEndBeyondALimitIsNotSent) {
                 HasSubstr("100.00"));
     wire.pass(1.0);
     EXPECT_EQ(wire.card.position(1), 0.0);
-    PmacWire lost({}, false); // the position is not known, so nobody knows better than the one who types
+    PmacWire lost({}, false); // the position is not known, so the person who types knows best
     lost.session.let_lines_give_power();
     (void)lost.session.command({"#1J=1200"}, false);
     ASSERT_TRUE(lost.run_to_end(20.0));

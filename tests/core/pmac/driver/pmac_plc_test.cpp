@@ -71,7 +71,7 @@ TEST(PmacPlcF2, IsSwitchedOffBeforeTheLinkIsDropped) {
         ASSERT_TRUE(wire.run_until([&] { return wire.degrees(0) > 0.5; }, 5.0));
         wire.leave();
         EXPECT_EQ(wire.session.farewell(), "");
-        wire.card.advance(2.0); // nobody is there
+        wire.card.advance(2.0); // no host is connected
         const double at = wire.degrees(0);
         wire.card.advance(2.0);
         EXPECT_NEAR(wire.degrees(0), at, 0.1);

@@ -92,7 +92,7 @@ TEST(PmacPowerF2, AHeldJogOfAmplifiersWithoutPowerEndsInAlarm) {
 
 TEST(PmacPowerF2, AStepThatIsNotMadeNamesItsJointAndWhereItWasSent) {
     PmacWire wire;
-    wire.pass(0.2); // following errors are told
+    wire.pass(0.2); // following errors are reported
     wire.card.emergency_stop();
     wire.session.jog(jog_of(1, 0.1, 5.0), wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == drivers::DriverState::alarm; }, 3.0));
@@ -132,7 +132,7 @@ TEST(PmacPowerF2, AMotorThatTripsAtRestAfterItGotPowerSaysWhy) {
     }
 }
 
-// As `arm direction` asks, one line behind the other: nobody looks at a machine at rest.
+// As `arm direction` asks, one line behind the other: a machine at rest is not watched meanwhile.
 TEST(PmacPowerF2, AMotorThatTripsWhileTheCardIsAskedSaysWhy) {
     PmacWire wire({}, false, "XYZA", {}, "I129=10\nI111=434\n");
     wire.session.enable(wire.now);

@@ -299,7 +299,7 @@ TEST(PmacSafetyF2, SilenceEndsMotionToo) {
     EXPECT_THAT(wire.session.status().message, HasSubstr("did not answer"));
 }
 
-/// As a busy computer does: nobody else has ended the program.
+/// As a busy computer does: the program has no other cause to end.
 TEST(PmacSafetyF2, AnEndByTheCardsOwnWatchIsToldAsThat) {
     PmacWire wire;
     wire.session.start(long_x_feed, wire.now);

@@ -58,7 +58,7 @@ inline std::string refusal(const auto& request) {
 
 class PmacWire : public PmacHolder, public SessionWire<pmac::internal::PmacSession, pmac::PmacEmulator> {
 public:
-    /// Connected; if `homed`, with power and its zero set where it stands.
+    /// Connected; if `homed`, with power and its zero set at its position.
     explicit PmacWire(const links::FaultSpec& faults = {},
                       bool homed = true,
                       std::string_view letters = "XYZA",

@@ -176,7 +176,7 @@ TEST(PmacProtections, AFaultOfAnAmplifierKillsUnlessIx25LooksAway) {
     thesis.card.raise_alarm();
     thesis.card.advance(0.5);
     EXPECT_TRUE(thesis.card.enabled(1));
-    EXPECT_LT(std::abs(thesis.card.speed(1)), 1.0); // it drives nothing, and nobody knows
+    EXPECT_LT(std::abs(thesis.card.speed(1)), 1.0); // it drives nothing, and that is not reported
     thesis.card.clear_faults();
     thesis.card.advance(0.02);
     EXPECT_GT(std::abs(thesis.card.speed(1)), 1000.0); // which is why the protection should be on
