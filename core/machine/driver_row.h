@@ -38,7 +38,7 @@ struct DriverChoice {
 /// The machine that is moved position by position, where no controller plans for itself.
 struct MovedAxes {
     std::shared_ptr<const kinematics::MachineModel> model;
-    kinematics::AxisPositions position; ///< its position
+    kinematics::AxisPositions position; ///< of each axis, as the model has them
     double speed = 1.0;                 ///< of those inside this program, see VirtualSpeed
     /// Of a PMAC: whose joints its axes are, in order; none leaves its limits.
     std::shared_ptr<const arm::ArmModel> arm = nullptr;

@@ -81,7 +81,8 @@ struct ReadsBack {
     bool operator()(const LineEndField& field) const { return text(field); }
     bool operator()(const NumberField& field) const {
         field.set(choice, field.least);
-        return field.value(choice) == field.least && field.least < field.usual && field.usual < field.most;
+        const bool reads_back = std::equal_to{}(field.value(choice), field.least);
+        return reads_back && field.least < field.usual && field.usual < field.most;
     }
     template <class Field> bool text(const Field& field) const {
         const std::string wanted = field.value(choice) + "B";
