@@ -137,35 +137,23 @@ std::string own_text(const Command& c) {
     }
 }
 
+/// Of three axes, from `first` on.
+std::string three(const AxisValues& values, std::size_t first) {
+    return fmt::format("{:.4f} {:.4f} {:.4f}", values[first], values[first + 1], values[first + 2]);
+}
+
 std::string offset_text(const AxisValues& o) {
-    return fmt::format(
-        "USE_TOOL_LENGTH_OFFSET({:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f}, {:.4f} {:.4f} {:.4f})",
-        o[0],
-        o[1],
-        o[2],
-        o[3],
-        o[4],
-        o[5],
-        o[6],
-        o[7],
-        o[8]);
+    return fmt::format("USE_TOOL_LENGTH_OFFSET({}, {}, {})", three(o, 0), three(o, 3), three(o, 6));
 }
 
 std::string tool_text(int row, const Tool& tool) {
     const AxisValues& o = tool.offset;
-    return fmt::format("SET_TOOL_TABLE_ENTRY({}, {}, {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} "
-                       "{:.4f}, {:.4f}, {:.4f}, {})",
+    return fmt::format("SET_TOOL_TABLE_ENTRY({}, {}, {} {} {}, {:.4f}, {:.4f}, {})",
                        row,
                        tool.number,
-                       o[0],
-                       o[1],
-                       o[2],
-                       o[3],
-                       o[4],
-                       o[5],
-                       o[6],
-                       o[7],
-                       o[8],
+                       three(o, 0),
+                       three(o, 3),
+                       three(o, 6),
                        tool.front_angle,
                        tool.back_angle,
                        tool.orientation);

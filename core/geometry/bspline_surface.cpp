@@ -7,6 +7,7 @@
 #include "core/geometry/internal/net_faults.h"
 #include "core/geometry/internal/projected.h"
 #include "core/geometry/internal/unit_normal.h"
+#include "core/geometry/internal/weighted_points.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <utility>
 
 namespace millwright::geometry {
 
@@ -203,14 +205,10 @@ BsplineSurface::BsplineSurface(BsplineNet net) : net_(std::move(net)) {
     if (std::string fault = fault_of(net_); !fault.empty()) {
         throw Error(std::move(fault));
     }
-    homogeneous_.reserve(net_.points.size());
-    for (std::size_t n = 0; n < net_.points.size(); ++n) {
-        const double w = net_.weights[n];
-        const Vec3 weighted = w * net_.points[n];
-        homogeneous_.emplace_back(weighted.x(), weighted.y(), weighted.z(), w);
-        rational_ = rational_ || !exactly_equal(w, 1.0);
-        box_.extend(net_.points[n]);
-    }
+    WeightedPoints points = weighted(net_.points, net_.weights);
+    homogeneous_ = std::move(points.homogeneous);
+    rational_ = points.rational;
+    box_ = points.box;
     smallest_tangent_ = geometry::smallest_tangent(box_);
 }
 

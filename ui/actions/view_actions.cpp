@@ -110,52 +110,33 @@ void keep_result(ActionContext& context) {
     context.view_state.compare_with = {{}, true};
 }
 
+template <Workspace workspace> void add_workspace(Actions& actions, const ActionInfo& info) {
+    add(actions, info, always, show_workspace<workspace>, is_in<workspace>);
+}
+
 void add_workspaces(Actions& actions) {
-    add(actions,
-        {"view.design", "View", "Design", "Control points and surface.", "F2", ""},
-        always,
-        show_workspace<Workspace::design>,
-        is_in<Workspace::design>);
-    add(actions,
-        {"view.grid", "View", "Grid", "The grid and its adaptation.", "F3", ""},
-        always,
-        show_workspace<Workspace::grid>,
-        is_in<Workspace::grid>);
-    add(actions,
-        {"view.toolpath", "View", "Toolpath", "The path and its error.", "F4", ""},
-        always,
-        show_workspace<Workspace::toolpath>,
-        is_in<Workspace::toolpath>);
-    add(actions,
-        {"view.program", "View", "Program", "The G-code, synchronised with the motion.", "F5", ""},
-        always,
-        show_workspace<Workspace::program>,
-        is_in<Workspace::program>);
-    add(actions,
-        {"view.machine", "View", "Machine", "The machine and its jobs.", "F6", ""},
-        always,
-        show_workspace<Workspace::machine>,
-        is_in<Workspace::machine>);
-    add(actions,
-        {"view.plot",
-         "View",
-         "Plot & Picture",
-         "Turns plots and pictures into parts: levels, hatching, reliefs.",
-         "Shift+F5",
-         ""},
-        always,
-        show_workspace<Workspace::plot>,
-        is_in<Workspace::plot>);
-    add(actions,
-        {"view.processor", "View", "Processor", "The CORDIC processor, clock by clock.", "F7", ""},
-        always,
-        show_workspace<Workspace::processor>,
-        is_in<Workspace::processor>);
-    add(actions,
-        {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogging.", "Shift+F6", icons::arm},
-        always,
-        show_workspace<Workspace::arm>,
-        is_in<Workspace::arm>);
+    add_workspace<Workspace::design>(
+        actions, {"view.design", "View", "Design", "Control points and surface.", "F2", ""});
+    add_workspace<Workspace::grid>(actions,
+                                   {"view.grid", "View", "Grid", "The grid and its adaptation.", "F3", ""});
+    add_workspace<Workspace::toolpath>(
+        actions, {"view.toolpath", "View", "Toolpath", "The path and its error.", "F4", ""});
+    add_workspace<Workspace::program>(
+        actions, {"view.program", "View", "Program", "The G-code, synchronised with the motion.", "F5", ""});
+    add_workspace<Workspace::machine>(
+        actions, {"view.machine", "View", "Machine", "The machine and its jobs.", "F6", ""});
+    add_workspace<Workspace::plot>(actions,
+                                   {"view.plot",
+                                    "View",
+                                    "Plot & Picture",
+                                    "Turns plots and pictures into parts: levels, hatching, reliefs.",
+                                    "Shift+F5",
+                                    ""});
+    add_workspace<Workspace::processor>(
+        actions, {"view.processor", "View", "Processor", "The CORDIC processor, clock by clock.", "F7", ""});
+    add_workspace<Workspace::arm>(
+        actions,
+        {"view.arm", "View", "Arm", "The robot arm: joints, goals, jogging.", "Shift+F6", icons::arm});
 }
 
 void add_grids_shown(Actions& actions) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::widgets {
@@ -27,6 +28,17 @@ std::string line_of_history(const std::vector<std::string>& lines, std::string_v
     return at == lines.end() || at + 1 == lines.end() ? std::string() : *(at + 1);
 }
 
+/// Any text is taken.
+EditBox text_box(std::string path, std::string_view value, std::string_view tip, const ImFont* font) {
+    EditBox box;
+    box.path = std::move(path);
+    box.shown = value;
+    box.tip = tip;
+    box.font = font;
+    box.refusal = [](std::string_view) { return std::string(); };
+    return box;
+}
+
 } // namespace
 
 std::optional<std::string> Ui::text_field(std::string_view id,
@@ -34,24 +46,14 @@ std::optional<std::string> Ui::text_field(std::string_view id,
                                           std::string_view value,
                                           std::string_view tip,
                                           const Permission& permission) {
-    EditBox box;
-    box.path = path(id);
-    box.shown = value;
-    box.tip = tip;
-    box.font = look_.fonts.text;
+    EditBox box = text_box(path(id), value, tip, look_.fonts.text);
     box.permission = permission;
-    box.refusal = [](std::string_view) { return std::string(); };
     return text_row(*this, label, box);
 }
 
 std::optional<std::string>
 Ui::search_field(std::string_view id, std::string_view label, std::string_view value, std::string_view tip) {
-    EditBox box;
-    box.path = path(id);
-    box.shown = value;
-    box.tip = tip;
-    box.font = look_.fonts.text;
-    box.refusal = [](std::string_view) { return std::string(); };
+    EditBox box = text_box(path(id), value, tip, look_.fonts.text);
     box.asks_again = true;
     return text_row(*this, label, box);
 }

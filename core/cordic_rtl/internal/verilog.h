@@ -59,6 +59,8 @@ private:
 /// The modules of a file each. Where `count` vectors are asked for, some overflow; `seed` chooses them.
 [[nodiscard]] std::string core_module(const Verilog& verilog);
 [[nodiscard]] std::string pipeline_module(const Verilog& verilog);
+/// How a bench ends that has counted `wrong` among COUNT of `what`.
+[[nodiscard]] std::string bench_verdict(std::string_view what);
 [[nodiscard]] std::string core_bench(const Verilog& verilog, std::int64_t count);
 [[nodiscard]] std::string pipeline_bench(const Verilog& verilog, std::int64_t count);
 [[nodiscard]] std::string test_vectors(const Verilog& verilog, std::int64_t count, std::uint64_t seed);

@@ -78,7 +78,13 @@ std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& be
         wrong = 0;
 )";
     text += bench.compares;
-    return text + R"(        if (wrong == 0) $display("PASS %0d vectors", COUNT);
+    return text + bench_verdict("vectors");
+}
+
+} // namespace
+
+std::string bench_verdict(std::string_view what) {
+    return fmt::format(R"(        if (wrong == 0) $display("PASS %0d {}", COUNT);
         else begin
             $display("FAIL %0d", wrong);
             $fatal(1);    // the simulator's exit code is not 0
@@ -86,10 +92,9 @@ std::string bench_of(const Verilog& verilog, std::int64_t count, const Bench& be
         $finish;
     end
 endmodule
-)";
+)",
+                       what);
 }
-
-} // namespace
 
 std::string core_bench(const Verilog& verilog, std::int64_t count) {
     return bench_of(verilog,
