@@ -102,8 +102,8 @@ struct Interpreter::Parts {
     std::vector<Diagnostic> errors;
     std::set<std::tuple<int, int, int>> told; ///< file, line and column of each error
     std::int64_t further_errors = 0;
-    bool started = false;
-    bool stopped = false;
+    enum class Stage { fresh, reading, stopped };
+    Stage stage = Stage::fresh;
     bool no_text = false;   ///< the file is of another kind
     bool seen_text = false; ///< a line that is not blank
     bool lacks_end = false;
@@ -112,7 +112,7 @@ struct Interpreter::Parts {
 };
 
 void Interpreter::Parts::start() {
-    started = true;
+    stage = Stage::reading;
     ModalState& s = run.state;
     if (is_grbl()) {
         s.motion = 0;
@@ -153,10 +153,10 @@ void Interpreter::Parts::start() {
 }
 
 bool Interpreter::Parts::step() {
-    if (!started) {
+    if (stage == Stage::fresh) {
         start();
     }
-    if (stopped) {
+    if (stage == Stage::stopped) {
         return false;
     }
     run.line_begin = files.here();
@@ -169,20 +169,20 @@ bool Interpreter::Parts::step() {
     run.variables.program.line = files.place().line;
     check_repetition();
     try {
-        if (!stopped) {
+        if (stage != Stage::stopped) {
             expect_text(text);
             execute(text);
         }
     } catch (const Refusal& refusal) {
         static_cast<void>(run.variables.take_reads());
         if (no_text) {
-            stopped = true; // what follows is no better
+            stage = Stage::stopped; // what follows is no better
             report(files.place(), refusal);
         } else if (const std::optional<Language> language = language_of_line(text)) {
-            stopped = true; // each further line would only say it again
+            stage = Stage::stopped; // each further line would only say it again
             report(files.place(), of_other_language(*language));
         } else if (const auto later = errors.empty() ? language_ahead() : std::nullopt) {
-            stopped = true;
+            stage = Stage::stopped;
             report({files.place().line + later->line, files.place().file},
                    of_other_language(later->language));
         } else {
@@ -196,11 +196,13 @@ bool Interpreter::Parts::step() {
         look_for_percent();
     }
     const bool enough = !settings.read_on && std::ssize(errors) >= settings.most_errors;
-    stopped = stopped || run.ended || enough;
-    if (stopped) {
+    if (run.ended || enough) {
+        stage = Stage::stopped;
+    }
+    if (stage == Stage::stopped) {
         reset();
     }
-    return !stopped;
+    return stage != Stage::stopped;
 }
 
 /// By a line soon behind the present one, whose own words are of no language alone: G71 G90 of Sinumerik,
@@ -257,7 +259,7 @@ void Interpreter::Parts::check_repetition() {
         flow.forget_turns();
     }
     if (repeated > settings.most_repeated_lines) {
-        stopped = true;
+        stage = Stage::stopped;
         report(flow.turned().value_or(files.place()),
                {1,
                 fmt::format(
@@ -268,7 +270,7 @@ void Interpreter::Parts::check_repetition() {
 }
 
 void Interpreter::Parts::end_of_text() {
-    stopped = true;
+    stage = Stage::stopped;
     run.out.begin({files.place(), {}});
     try {
         // after a return that was refused, what is missing behind it is no further fault
@@ -343,7 +345,7 @@ void Interpreter::Parts::execute(std::string_view text) {
         if (run.in_percents) {
             internal::finish_waiting(run);
             run.out.send(CommandKind::finish);
-            stopped = true;
+            stage = Stage::stopped;
             return;
         }
     }
@@ -388,7 +390,7 @@ bool Interpreter::Parts::execute_flow(Cursor& cursor) {
         try {
             flow.execute(cursor);
         } catch (Refusal& refusal) {
-            stopped = true;
+            stage = Stage::stopped;
             if (settings.read_on) { // where the first error is not the last
                 refusal.hint += refusal.hint.empty() ? "" : "; ";
                 refusal.hint += "the lines after it were not checked";

@@ -18,9 +18,9 @@ constexpr std::array all_facts = {
               .jog_time = 0.16,
               .cancel_drops_lines = true,
               .errors_stick = true,
+              .settings = SettingForm::numbers_with_text,
               .rotary_mask = true,
-              .homing_mask = true,
-              .text_settings = true},
+              .homing_mask = true},
     // Its configuration allows 120 blocks, of which one stays empty, and 20 segments.
     GrblFacts{.firmware = GrblFirmware::fluidnc,
               .name = "FluidNC",
@@ -29,8 +29,7 @@ constexpr std::array all_facts = {
               .jog_time = 0.2,
               .cancel_drops_lines = true,
               .cancelled_jog_error = 130,
-              .named_axis_settings = true,
-              .text_settings = true},
+              .settings = SettingForm::names},
 };
 
 std::string version_word(std::string_view text) {

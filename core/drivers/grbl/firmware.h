@@ -11,6 +11,13 @@ namespace millwright::drivers {
 enum class GrblFirmware { grbl, grblhal, fluidnc };
 
 /// What differs from one firmware to another, in one place.
+/// What settings look like.
+enum class SettingForm {
+    numbers,           ///< numbers with numbers as values
+    numbers_with_text, ///< some values are no numbers
+    names              ///< the limits of each axis have names, too ("$/axes/x/max_travel_mm")
+};
+
 struct GrblFacts {
     GrblFirmware firmware = GrblFirmware::grbl;
     std::string_view name; ///< as its makers write it
@@ -26,14 +33,11 @@ struct GrblFacts {
     int cancelled_jog_error = 0;
     /// After a refused line it refuses all G-code with the same error, until a $ line was right.
     bool errors_stick = false;
-    /// The limits of each axis are settings with names ("$/axes/x/max_travel_mm"), not with numbers alone.
-    bool named_axis_settings = false;
+    SettingForm settings = SettingForm::numbers;
     /// An axis A, B or C counts as a length unless $376 says that it is rotary.
     bool rotary_mask = false;
     /// $22 is a mask: 1 homing is on, 8 the switches are at zero. $44 to $49 say which axes it homes.
     bool homing_mask = false;
-    /// Settings may have values that are no numbers.
-    bool text_settings = false;
 };
 
 [[nodiscard]] const GrblFacts& facts_of(GrblFirmware firmware);

@@ -58,7 +58,7 @@ bool GrblSession::ask_more(double now) {
     const bool more_than_grbl =
         readout_.axes.size() > 3 ||
         (!readout_.settings.empty() && readout_.settings.rbegin()->first > last_of_grbl);
-    if (facts().named_axis_settings) {
+    if (facts().settings == SettingForm::names) {
         questions_ = {"$/planner_blocks", "$/stepping/segments"};
         for (const char letter : readout_.axes) {
             const std::string axis = std::string("$/axes/") +
@@ -87,7 +87,7 @@ void GrblSession::handle(const SettingMessage& setting, double) {
 }
 
 void GrblSession::handle(const NamedSetting& setting, double now) {
-    if (!facts().text_settings && stage_ != Stage::asking) {
+    if (facts().settings == SettingForm::numbers && stage_ != Stage::asking) {
         return handle(Garbage{}, now);
     }
     readout_.named[setting.name] = setting.value;

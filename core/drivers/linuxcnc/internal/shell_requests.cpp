@@ -33,7 +33,7 @@ void ShellSession::fail(std::string why, double now) {
     if (active()) {
         set("abort");
         finish(Stage::stopping, std::move(why));
-        ending_in_fault_ = true;
+        after_stopping_ = Stage::alarm;
         quiet_rounds_ = 0;
         next_round_ = now;
     } else if (stage_ == Stage::ready || stage_ == Stage::stopped || stage_ == Stage::foreign ||
@@ -59,14 +59,9 @@ void ShellSession::start(const program::Listing& listing,
                          double now) {
     require_rest("program");
     answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
-    listing_ = listing;
-    file_ = file;
     finish(Stage::running);
-    has_program_ = true;
-    seen_running_ = marked_ = ending_in_fault_ = false;
-    executed_ = last_bound_ = quiet_rounds_ = 0;
-    program_start_ = position_;
-    left_start_ = false;
+    run_ = {.listing = listing, .file = file, .start = position_};
+    quiet_rounds_ = 0;
     since_ = now;
     set("mode auto");
     set("open " + path);
@@ -92,7 +87,7 @@ void ShellSession::stop(double now) {
     if (active() || stage_ == Stage::foreign) {
         set("abort");
         finish(Stage::stopping);
-        ending_in_fault_ = false;
+        after_stopping_ = Stage::stopped;
         quiet_rounds_ = 0;
         next_round_ = now;
     }

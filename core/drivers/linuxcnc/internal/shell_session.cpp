@@ -97,9 +97,9 @@ void ShellSession::handle(const Reply& reply, double now) {
         if (reply.subject == "ERROR" && reply.text != "OK") {
             error_ += (error_.empty() ? "" : "; ") + reply.text;
         }
-        if (reply.subject == "OPERATOR_DISPLAY" && !file_.end_mark.empty() &&
-            reply.text.find(file_.end_mark) != std::string::npos) {
-            marked_ = true;
+        if (reply.subject == "OPERATOR_DISPLAY" && run_ && !run_->file.end_mark.empty() &&
+            reply.text.find(run_->file.end_mark) != std::string::npos) {
+            run_->marked = true;
         }
     }
     if (outstanding_.empty() && in_round_) {

@@ -128,17 +128,23 @@ private:
     double speed_ = 0.0; ///< along X Y Z, by the last two positions, mm/s
     Overrides overrides_;
 
-    program::Listing listing_;
-    ProgramFile file_;
-    bool seen_running_ = false, paused_ = false, marked_ = false, ending_in_fault_ = false,
-         has_program_ = false;
-    int quiet_rounds_ = 0;                    ///< idle, one after the other
-    int busy_rounds_ = 0;                     ///< not idle, the same
-    bool off_without_estop_ = false;          ///< in the round before
-    double last_noise_ = 0.0;                 ///< when the last round was that was not
-    kinematics::AxisPositions program_start_; ///< where the machine stood
-    bool left_start_ = false;
-    int last_bound_ = 0, executed_ = 0;
+    /// A program of ours, since it was begun: what LinuxCNC has shown of it.
+    struct Run {
+        program::Listing listing;
+        ProgramFile file;
+        kinematics::AxisPositions start; ///< where the machine stood
+        bool seen_running = false;
+        bool marked = false;     ///< it reported the mark at the end of the file
+        bool left_start = false; ///< the machine has left its place
+        int last_bound = 0, executed = 0;
+    };
+    std::optional<Run> run_; ///< the current or last
+    bool paused_ = false;
+    Stage after_stopping_ = Stage::stopped; ///< or alarm
+    int quiet_rounds_ = 0;                  ///< idle, one after the other
+    int busy_rounds_ = 0;                   ///< not idle, the same
+    bool off_without_estop_ = false;        ///< in the round before
+    double last_noise_ = 0.0;               ///< when the last round was that was not
 
     std::deque<std::string> lines_; ///< of a command, to be sent
     CommandAnswer answer_;

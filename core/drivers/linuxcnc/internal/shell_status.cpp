@@ -88,9 +88,9 @@ DriverStatus ShellSession::status() const {
     const auto tool = read_numbers(value("TOOL"));
     status.tool = tool && tool->size() == 1 && std::abs((*tool)[0]) < 1e6 ? static_cast<int>((*tool)[0]) : 0;
     status.answer = answer_;
-    if (has_program_) {
-        status.executed_blocks = executed_;
-        status.block = std::min(executed_, static_cast<int>(listing_.line_of_block.size()) - 1);
+    if (run_) {
+        status.executed_blocks = run_->executed;
+        status.block = std::min(run_->executed, static_cast<int>(run_->listing.line_of_block.size()) - 1);
     }
     return status;
 }

@@ -39,7 +39,7 @@ void ShellSession::round_done(double now) {
     watch_jog(now);
     watch_homing(now);
     if (stage_ == Stage::stopping && quiet_rounds_ >= 2) {
-        finish(ending_in_fault_ ? Stage::alarm : Stage::stopped, message_);
+        finish(after_stopping_, message_);
     }
 }
 
@@ -120,9 +120,10 @@ void ShellSession::watch_others() {
 /// while LinuxCNC begins or aborts, it shows lines that it has only read. It has begun when the machine has
 /// left its place.
 void ShellSession::watch_program(double now) {
-    if (stage_ != Stage::running) {
+    if (stage_ != Stage::running || !run_) {
         return;
     }
+    Run& run = *run_;
     if (!error_.empty()) {
         fail(error_, now);
         return;
@@ -130,23 +131,23 @@ void ShellSession::watch_program(double now) {
     const std::string& status = value("PROGRAM_STATUS");
     paused_ = status == "PAUSED";
     if (status == "RUNNING" || status == "PAUSED") {
-        seen_running_ = true;
+        run.seen_running = true;
         const auto line = read_numbers(value("PROGRAM_LINE"));
         int bound = 0;
-        if (file_.in_order && line && line->size() == 1 && (*line)[0] >= 1.0 &&
-            (*line)[0] <= file_.end_line) {
-            const auto at = std::ranges::lower_bound(listing_.line_of_block, static_cast<int>((*line)[0]));
-            bound = static_cast<int>(at - listing_.line_of_block.begin());
+        if (run.file.in_order && line && line->size() == 1 && (*line)[0] >= 1.0 &&
+            (*line)[0] <= run.file.end_line) {
+            const auto at = std::ranges::lower_bound(run.listing.line_of_block, static_cast<int>((*line)[0]));
+            bound = static_cast<int>(at - run.listing.line_of_block.begin());
         }
         constexpr double same_place = 0.002; // mm or rad: more than the last digit that is reported
-        const double way = (position_ - program_start_).cwiseAbs().maxCoeff();
-        executed_ = std::max(executed_, left_start_ ? std::min(bound, last_bound_) : 0);
-        last_bound_ = bound;
-        left_start_ = left_start_ || way > same_place;
-    } else if (marked_ && quiet_rounds_ >= 2) {
-        executed_ = static_cast<int>(listing_.line_of_block.size());
+        const double way = (position_ - run.start).cwiseAbs().maxCoeff();
+        run.executed = std::max(run.executed, run.left_start ? std::min(bound, run.last_bound) : 0);
+        run.last_bound = bound;
+        run.left_start = run.left_start || way > same_place;
+    } else if (run.marked && quiet_rounds_ >= 2) {
+        run.executed = static_cast<int>(run.listing.line_of_block.size());
         finish(Stage::ready);
-    } else if (!marked_ && (seen_running_ || now - since_ > settings_.patience) && quiet_rounds_ >= 3) {
+    } else if (!run.marked && (run.seen_running || now - since_ > settings_.patience) && quiet_rounds_ >= 3) {
         finish(Stage::alarm, "the program was ended at the machine");
     }
 }

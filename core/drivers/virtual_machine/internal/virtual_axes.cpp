@@ -41,7 +41,7 @@ DriverStatus VirtualAxes::status() const {
     if (state_ == DriverState::disconnected) {
         return status;
     }
-    status.activity = at_rest_ && state_ != DriverState::holding ? Activity::none : activity_;
+    status.activity = !moving() && state_ != DriverState::holding ? Activity::none : activity_;
     status.answer = answer_;
     status.position = rest_position_;
     status.velocity = AxisPositions::Zero(rest_position_.size());
@@ -61,7 +61,7 @@ DriverStatus VirtualAxes::status() const {
     status.flood = coolant_;
     if (now_ != nullptr) {
         const motion::Sample sample = now_->at(time_);
-        if (!at_rest_) {
+        if (moving()) {
             status.position = sample.position;
             status.velocity = sample.velocity;
         }
@@ -81,8 +81,10 @@ void VirtualAxes::show_program(DriverStatus& status, const motion::Sample& sampl
         status.planned_time = work_.trajectory->duration();
         return;
     }
-    const bool begins = waiting_ || between_blocks_;
-    status.block = waiting_ ? pause_ : between_blocks_ ? now_->last_block() + 1 : sample.block;
+    const bool begins = pace_ == Pace::at_pause || pace_ == Pace::between_blocks;
+    status.block = pace_ == Pace::at_pause         ? pause_
+                   : pace_ == Pace::between_blocks ? now_->last_block() + 1
+                                                   : sample.block;
     status.fraction = begins ? 0.0 : sample.fraction;
     status.executed_blocks = status.block;
     status.planned_time = work_.trajectory->time_at(status.block, status.fraction);
@@ -94,12 +96,12 @@ std::vector<StoredOffset> VirtualAxes::stored_offsets() const {
 }
 
 bool VirtualAxes::moving() const {
-    return !at_rest_;
+    return pace_ == Pace::moving;
 }
 
 void VirtualAxes::advance(double seconds) {
     expects(seconds >= 0.0, "time does not run backwards");
-    while (!at_rest_) { // more than once only where a jog follows another
+    while (moving()) { // more than once only where a jog follows another
         const double left = std::min({now_->duration(), look_at_, pause_at_}) - time_;
         if (seconds < left) {
             time_ += seconds;
@@ -120,12 +122,13 @@ void VirtualAxes::advance(double seconds) {
 }
 
 void VirtualAxes::come_to_rest() {
-    at_rest_ = true;
+    pace_ = Pace::at_rest;
     rest_position_ = now_->at(time_).position;
     if (state_ == DriverState::running) {
         take_accessories(now_->last_block() + 1);
-        between_blocks_ = activity_ == Activity::program && now_->last_block() + 1 < now_->block_count();
-        state_ = between_blocks_ ? DriverState::holding : DriverState::idle;
+        const bool more = activity_ == Activity::program && now_->last_block() + 1 < now_->block_count();
+        pace_ = more ? Pace::between_blocks : Pace::at_rest;
+        state_ = more ? DriverState::holding : DriverState::idle;
     } else if (state_ == DriverState::stopping) {
         state_ = DriverState::stopped;
     }
@@ -165,7 +168,7 @@ void VirtualAxes::follow(Trajectory next, DriverState state) {
     now_ = std::make_shared<const Trajectory>(std::move(next));
     time_ = 0.0;
     look_at_ = never;
-    at_rest_ = between_blocks_ = false;
+    pace_ = Pace::moving;
     state_ = state;
     pause_at_ = time_of_pause();
     advance(0.0);
@@ -221,13 +224,12 @@ void VirtualAxes::execute(Work work, Activity activity) {
     now_ = work_.trajectory;
     time_ = 0.0;
     look_at_ = never;
-    at_rest_ = between_blocks_ = false;
+    pace_ = Pace::moving;
     state_ = DriverState::running;
     activity_ = activity;
     message_.clear();
     overrides_ = {};
     switched_blocks_ = 0;
-    waiting_ = false;
     look_for_pause(0);
     pause_at_ = time_of_pause();
     if (single_block_ && activity == Activity::program) {
@@ -281,7 +283,7 @@ void VirtualAxes::go_on() {
     now_ = std::make_shared<const Trajectory>(std::move(next));
     time_ = 0.0;
     look_at_ = look;
-    at_rest_ = between_blocks_ = false;
+    pace_ = Pace::moving;
     state_ = DriverState::running;
     pause_at_ = time_of_pause();
 }
@@ -300,7 +302,7 @@ void VirtualAxes::hold() {
 
 void VirtualAxes::resume() {
     if (state_ == DriverState::holding) {
-        if (std::exchange(waiting_, false)) {
+        if (pace_ == Pace::at_pause) {
             message_.clear();
             look_for_pause(pause_ + 1);
         }
@@ -314,7 +316,7 @@ void VirtualAxes::stop() {
     if (state_ == DriverState::running) {
         follow(motion::brake(*now_, time_), DriverState::stopping);
     } else if (state_ == DriverState::holding) {
-        state_ = at_rest_ ? DriverState::stopped : DriverState::stopping;
+        state_ = !moving() ? DriverState::stopped : DriverState::stopping;
         message_.clear();
     }
 }
@@ -323,9 +325,9 @@ void VirtualAxes::emergency_stop(std::string why) {
     if (state_ == DriverState::disconnected || state_ == DriverState::alarm) {
         return;
     }
-    if (!at_rest_) {
+    if (moving()) {
         rest_position_ = now_->at(time_).position;
-        at_rest_ = true;
+        pace_ = Pace::at_rest;
     }
     state_ = DriverState::alarm;
     message_ = std::move(why);

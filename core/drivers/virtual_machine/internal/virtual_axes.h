@@ -22,7 +22,7 @@ public:
     [[nodiscard]] std::vector<StoredOffset> stored_offsets() const;
     /// Whether advance() changes anything.
     [[nodiscard]] bool moving() const;
-    [[nodiscard]] bool jogging() const { return activity_ == Activity::jog && !at_rest_; }
+    [[nodiscard]] bool jogging() const { return activity_ == Activity::jog && moving(); }
 
     /// Lets `seconds` >= 0 of machine time pass.
     void advance(double seconds);
@@ -48,6 +48,12 @@ public:
     void close();
 
 private:
+    enum class Pace {
+        moving,
+        at_rest,
+        between_blocks, ///< at rest at the end of `now_`, and more of the program follows
+        at_pause        ///< at rest in `pause_`
+    };
     /// Jogs that follow the present one.
     struct Leg {
         kinematics::AxisPositions way;
@@ -78,16 +84,14 @@ private:
     std::shared_ptr<const motion::Trajectory> now_; ///< the plan, or what became of it; null: none
     double time_ = 0.0;                             ///< into `now_`
     double look_at_ = 0.0; ///< the time at which `now_` is planned on; after its end: it is whole
-    bool at_rest_ = true;
+    Pace pace_ = Pace::at_rest;
     kinematics::AxisPositions rest_position_; ///< where the axes stand if at rest
     std::string message_;
     Overrides overrides_;
     bool single_block_ = false;
     bool optional_stop_ = false;
-    bool between_blocks_ = false; ///< at rest at the end of `now_`, and more of the program follows
-    int pause_ = 0;               ///< the program's next block that waits for a person; behind all: none
-    bool waiting_ = false;        ///< at rest in it
-    double pause_at_ = 0.0;       ///< the time at which `now_` comes to its end; after its own: it does not
+    int pause_ = 0;         ///< the program's next block that waits for a person; behind all: none
+    double pause_at_ = 0.0; ///< the time at which `now_` comes to its end; after its own: it does not
     std::deque<Leg> legs_;
     std::optional<Leg> leg_; ///< the present jog, from the start of `work_`
     bool jog_ends_ = false;  ///< it brakes

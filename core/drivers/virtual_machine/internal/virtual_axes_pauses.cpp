@@ -28,7 +28,7 @@ double VirtualAxes::time_of_pause() const {
 }
 
 void VirtualAxes::wait_for_person() {
-    at_rest_ = waiting_ = true;
+    pace_ = Pace::at_pause;
     rest_position_ = now_->at(time_).position;
     take_accessories(pause_);
     state_ = DriverState::holding;
@@ -38,7 +38,7 @@ void VirtualAxes::wait_for_person() {
 /// One that is passed already is passed.
 void VirtualAxes::set_optional_stop(bool on) {
     optional_stop_ = on;
-    if (waiting_ || activity_ != Activity::program || now_ == nullptr) {
+    if (pace_ == Pace::at_pause || activity_ != Activity::program || now_ == nullptr) {
         return; // it is looked at again before the axes go on
     }
     look_for_pause(now_->block_at(time_));

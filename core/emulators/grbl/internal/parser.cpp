@@ -170,16 +170,14 @@ private:
 
     int take_tool_length() {
         if (words_.tool_length == 490) {
-            modes().tool_length = false;
-            modes().tool_length_offset = 0.0;
+            modes().tool_length.reset();
         } else if (words_.tool_length == 431) {
             const auto others = std::ranges::count_if(build_.axes, [this](char c) { return words_.has(c); });
             if (others != 1 || !words_.has('Z')) {
                 return error_code::wrong_length_axis;
             }
             use("Z");
-            modes().tool_length = true;
-            modes().tool_length_offset = *words_.value('Z') * unit();
+            modes().tool_length = *words_.value('Z') * unit();
         }
         return error_code::none;
     }
@@ -206,7 +204,7 @@ private:
 
     int take_non_modal() {
         if (modes().coordinates != before_.coordinates ||
-            !exactly_equal(modes().tool_length_offset, before_.tool_length_offset)) {
+            !exactly_equal(modes().tool_length_offset(), before_.tool_length_offset())) {
             add(Action::offset);
         }
         switch (words_.non_modal) {
@@ -273,7 +271,7 @@ private:
         for (std::size_t n = 0; n < build_.axis_count(); ++n) {
             if (const auto& word = words_.value(build_.axes[n])) {
                 const double value = *word * unit_of(n);
-                const double other = modes().g92[n] + (n == 2 ? modes().tool_length_offset : 0.0);
+                const double other = modes().g92[n] + (n == 2 ? modes().tool_length_offset() : 0.0);
                 offset[n] = how > 2 ? modes().position[n] - other - value : value;
             }
         }
@@ -408,7 +406,7 @@ Axes work_offset(const Modes& modes, const Eeprom& eeprom) {
     for (std::size_t n = 0; n < offset.size(); ++n) {
         offset[n] += modes.g92[n];
     }
-    offset[2] += modes.tool_length_offset;
+    offset[2] += modes.tool_length_offset();
     return offset;
 }
 

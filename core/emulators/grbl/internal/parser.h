@@ -5,6 +5,7 @@
 #include "core/emulators/grbl/internal/eeprom.h"
 #include "core/emulators/grbl/internal/words.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,7 +16,7 @@ struct Modes {
     int motion = 0; ///< ten times the number of the command, as in Words
     int plane = 170;
     int coordinates = 0; ///< 0 to 5 for G54 to G59
-    bool absolute = true, inches = false, inverse_time = false, tool_length = false;
+    bool absolute = true, inches = false, inverse_time = false;
     int spindle = 50; ///< M3, M4, M5 times ten
     bool flood = false, mist = false;
     double feed = 0.0;
@@ -23,7 +24,9 @@ struct Modes {
     int tool = 0;
     Axes position{}; ///< machine coordinates, at the end of all that was parsed
     Axes g92{};
-    double tool_length_offset = 0.0;
+    std::optional<double> tool_length; ///< mm, of G43.1; nothing: G49
+
+    [[nodiscard]] double tool_length_offset() const { return tool_length.value_or(0.0); }
 };
 
 enum class Action {

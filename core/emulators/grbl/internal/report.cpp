@@ -167,7 +167,7 @@ parameters_report(const Modes& modes, const Probe& probe, const Eeprom& eeprom, 
     if (build.is(EmulatedFirmware::grblhal) && eeprom.is_on(homing_setting)) {
         text += fmt::format("[HOME:{}:7]\r\n", coordinates({}, eeprom, build));
     }
-    text += "[TLO:" + length(modes.tool_length_offset, eeprom) + "]\r\n";
+    text += "[TLO:" + length(modes.tool_length_offset(), eeprom) + "]\r\n";
     return build.is(EmulatedFirmware::fluidnc) ? text : text + probe_report(probe, eeprom, build);
 }
 

@@ -116,30 +116,33 @@ void LinuxCncTask::end_program() {
 void LinuxCncTask::fall_off() {
     machine_.emergency_stop();
     follow(machine_.status());
-    power_ = paused_ = homing_ = false;
+    paused_ = homing_ = false;
+    power_ = power_ == Power::on ? Power::off : power_;
     program_.reset();
 }
 
 void LinuxCncTask::set_estop(bool on) {
     if (on) {
         fall_off();
+        power_ = Power::estop;
+    } else if (power_ == Power::estop) {
+        power_ = Power::off;
     }
-    estop_ = on;
 }
 
 void LinuxCncTask::set_power(bool on) {
     if (!on) {
         fall_off();
-    } else if (estop_) {
+    } else if (power_ == Power::estop) {
         errors_.emplace_back("can't turn the machine on in its emergency stop");
-    } else if (!power_) {
-        power_ = true;
+    } else if (power_ == Power::off) {
+        power_ = Power::on;
         machine_.reset();
     }
 }
 
 bool LinuxCncTask::ready(TaskMode mode, std::string_view what) {
-    if (!power_) {
+    if (power_ != Power::on) {
         errors_.push_back(fmt::format("can't {} while the machine is off", what));
     } else if (mode_ != mode) {
         errors_.push_back(fmt::format("can't {} in this mode", what));
@@ -165,9 +168,8 @@ void LinuxCncTask::set_mode(TaskMode mode) {
 void LinuxCncTask::open(const std::filesystem::path& file) {
     try {
         opened_ = read_file(file);
-        has_file_ = true;
     } catch (const Error& error) {
-        has_file_ = false;
+        opened_.reset();
         errors_.push_back(fmt::format("can't open {}: {}", file.string(), error.what()));
     }
 }
@@ -233,11 +235,11 @@ void LinuxCncTask::run() {
     if (!ready(TaskMode::automatic, "run a program")) {
         return;
     }
-    if (!has_file_) {
+    if (!opened_) {
         errors_.emplace_back("can't run a program: none is open");
         return;
     }
-    Program program = read(opened_);
+    Program program = read(*opened_);
     auto motion = std::make_shared<const motion::Trajectory>(
         motion::plan(*program.blocks, *model_, {}, Progress(), machine_.status().position));
     ++truth_.runs;

@@ -44,8 +44,8 @@ public:
     void stop_jog();
     void set_feed_override(int percent);
 
-    [[nodiscard]] bool estop() const { return estop_; }
-    [[nodiscard]] bool power() const { return power_; }
+    [[nodiscard]] bool estop() const { return power_ == Power::estop; }
+    [[nodiscard]] bool power() const { return power_ == Power::on; }
     [[nodiscard]] TaskMode mode() const { return mode_; }
     [[nodiscard]] bool homed() const { return homed_; }
     [[nodiscard]] int feed_override() const { return feed_override_; }
@@ -91,11 +91,12 @@ private:
     std::shared_ptr<const kinematics::MachineModel> model_;
     OwnClock clock_;
     drivers::VirtualMachine machine_;
-    bool estop_ = true, power_ = false, homed_ = false, homing_ = false, paused_ = false;
+    enum class Power { estop, off, on };
+    Power power_ = Power::estop;
+    bool homed_ = false, homing_ = false, paused_ = false;
     TaskMode mode_ = TaskMode::manual;
     int feed_override_ = 100;
-    std::string opened_; ///< the text of the file
-    bool has_file_ = false;
+    std::optional<std::string> opened_; ///< the text of the file; nothing: none is open
     std::optional<Program> program_;
     int line_ = 0;
     int read_line_ = 0;              ///< the last one that was read ahead

@@ -48,8 +48,7 @@ int CoordinateSystem::point_to(int program, double label) {
     const StoredProgram* const found = card_->program(at_.program);
     constexpr double labels = 100'000.0;
     const int place = found == nullptr ? -1 : found->place_of(static_cast<int>(std::lround(label * labels)));
-    pointed_ = place >= 0;
-    at_.statement = std::max(place, 0);
+    at_.statement = place;
     return 0;
 }
 
@@ -93,7 +92,7 @@ int CoordinateSystem::run(bool one_step) {
         stepping_ = one_step;
         return 0;
     }
-    StoredProgram* const program = pointed_ ? card_->program(at_.program) : nullptr;
+    StoredProgram* const program = at_.statement >= 0 ? card_->program(at_.program) : nullptr;
     const bool awaits = at_.program < 0 && card_->rotary_open;
     if (program == nullptr || (program->statements().empty() && !awaits)) {
         return no_program;
@@ -101,8 +100,10 @@ int CoordinateSystem::run(bool one_step) {
     if (!program->join()) {
         return bad_structure;
     }
-    run_time_error_ = radius_error_ = hold_ = ended_ = in_block_ = false;
-    running_ = calculating_ = true;
+    run_error_ = RunError::none;
+    hold_ = in_block_ = false;
+    running_ = true;
+    calculation_ = Calculation::going_on;
     stepping_ = one_step;
     gave_up_blending_ = false;
     dwell_ = 0.0;
@@ -121,7 +122,7 @@ void CoordinateSystem::hold() {
 
 void CoordinateSystem::quit() {
     if (running_) {
-        calculating_ = false;
+        calculation_ = calculating() ? Calculation::stopped : calculation_;
         dwell_ = 0.0;
     }
 }
@@ -145,7 +146,8 @@ void CoordinateSystem::abort() {
 
 void CoordinateSystem::halt() {
     const bool was_running = running_;
-    running_ = calculating_ = hold_ = false;
+    running_ = hold_ = false;
+    calculation_ = Calculation::stopped;
     dwell_ = 0.0;
     homing_ = 0;
     rate_ = percent_ / 100.0;
@@ -238,12 +240,12 @@ void CoordinateSystem::advance(double cycle) {
         dwell_ -= cycle;
     }
     const bool waits = dwelling() || homing_ != 0;
-    if (path_.braking() && calculating_ && !waits && !gave_up_blending_ && !stepping_) {
-        run_time_error_ = true; // the next move was not ready when it was needed
+    if (path_.braking() && calculating() && !waits && !gave_up_blending_ && !stepping_) {
+        run_error_ = RunError::run_time; // the next move was not ready when it was needed
         halt();
         return;
     }
-    if (path_.empty() && !calculating_ && !waits) {
+    if (path_.empty() && !calculating() && !waits) {
         finish();
     }
 }
@@ -268,7 +270,7 @@ void CoordinateSystem::drive_motors(double cycle) {
 /// The program rests: at its end, or where it was told to stop.
 void CoordinateSystem::finish() {
     running_ = stepping_ = false;
-    if (ended_) {
+    if (calculation_ == Calculation::at_end) {
         at_.statement = 0;
         calls_.clear();
     }
@@ -282,9 +284,9 @@ void CoordinateSystem::finish() {
 std::uint32_t CoordinateSystem::status_word_1() const {
     std::uint32_t word = running_ ? 1U : 0U;
     word |= stepping_ ? 2U : 0U;
-    word |= running_ && calculating_ && !stepping_ ? 0x14U : 0U;
+    word |= running_ && calculating() && !stepping_ ? 0x14U : 0U;
     word |= time_ ? 8U : 0U;
-    word |= center_absolute_ ? 0U : 0x20U;
+    word |= center_ == CenterMode::absolute ? 0U : 0x20U;
     // pairs of bits, "feeds" above "incremental": Z Y X W V U C B A
     constexpr std::array<std::size_t, axis_count> from_the_top{2, 1, 0, 8, 7, 6, 5, 4, 3};
     for (int n = 0; n < axis_count; ++n) {
@@ -314,8 +316,8 @@ std::uint32_t CoordinateSystem::status_word_2() const {
                                : mode_ == Mode::clockwise         ? 1U
                                : mode_ == Mode::counter_clockwise ? 3U
                                                                   : 0U;
-    return bit(held(), 23) | bit(run_time_error_, 22) | bit(radius_error_, 21) | bit(fault, 20) |
-           bit(fatal, 19) | bit(warning, 18) | bit(any && all_in_position, 17) | mode;
+    return bit(held(), 23) | bit(run_error_ != RunError::none, 22) | bit(run_error_ == RunError::radius, 21) |
+           bit(fault, 20) | bit(fatal, 19) | bit(warning, 18) | bit(any && all_in_position, 17) | mode;
 }
 
 } // namespace millwright::pmac::card

@@ -5,6 +5,7 @@
 #include "core/pmac/emulator/internal/path.h"
 #include "core/pmac/emulator/internal/stored_program.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -59,7 +60,7 @@ public:
     [[nodiscard]] double percent() const { return percent_; }
     [[nodiscard]] double time_base() const { return rate_; }
     [[nodiscard]] int program() const { return at_.program; }
-    [[nodiscard]] int label_line() const { return at_.statement; }
+    [[nodiscard]] int label_line() const { return std::max(at_.statement, 0); }
     [[nodiscard]] std::uint32_t status_word_1() const;
     [[nodiscard]] std::uint32_t status_word_2() const;
     [[nodiscard]] std::int64_t moves() const { return moves_; } ///< that were begun, ever
@@ -67,8 +68,17 @@ public:
 
 private:
     struct Place {
-        int program = 0, statement = 0;
+        int program = 0;
+        int statement = 0; ///< -1: the program has no such label
     };
+    /// Of the program's statements, ahead of the motion.
+    enum class Calculation { stopped, going_on, at_end };
+    enum class RunError {
+        none,
+        run_time,
+        radius ///< which is a run-time error, too
+    };
+    enum class CenterMode { incremental, absolute };
     enum class Mode { linear, rapid, clockwise, counter_clockwise };
     enum class Next { go_on, wait, end };
 
@@ -80,6 +90,7 @@ private:
     void slew();
     [[nodiscard]] bool searches_ended();
     [[nodiscard]] bool dwelling() const { return dwell_ > 0.0; }
+    [[nodiscard]] bool calculating() const { return calculation_ == Calculation::going_on; }
 
     // interpreter.cpp
     Next execute(const Statement& statement);
@@ -110,11 +121,11 @@ private:
     int number_; ///< from 0
     std::array<AxisDefinition, motors> definitions_;
 
-    Place at_;
+    Place at_{.program = 0, .statement = -1};
     std::vector<Place> calls_;
-    bool pointed_ = false, running_ = false, stepping_ = false, ended_ = false, calculating_ = false;
-    bool in_block_ = false, hold_ = false, run_time_error_ = false, radius_error_ = false;
-    bool gave_up_blending_ = false;
+    bool running_ = false, stepping_ = false, in_block_ = false, hold_ = false, gave_up_blending_ = false;
+    Calculation calculation_ = Calculation::stopped;
+    RunError run_error_ = RunError::none; ///< of the current or last run
     double percent_ = 100.0, rate_ = 1.0; ///< time base wanted, %, and now, as a fraction
     double dwell_ = 0.0;
     unsigned homing_ = 0; ///< motors for whose searches the program waits, a bit each
@@ -122,7 +133,7 @@ private:
 
     Mode mode_ = Mode::linear;
     std::array<bool, axis_count> incremental_{};
-    bool center_absolute_ = false;
+    CenterMode center_ = CenterMode::incremental; ///< of I J K
     std::array<bool, axis_count> feeds_{true, true, true};
     std::optional<double> feed_;                ///< axis units each time unit of Ix90; nothing: `time_`
     std::optional<double> time_;                ///< ms

@@ -8,11 +8,11 @@
 namespace millwright::pmac::card {
 
 void CoordinateSystem::calculate(int statements) {
-    if (!running_ || held() || !calculating_) {
+    if (!running_ || held() || !calculating()) {
         return;
     }
     int back = 0;
-    for (int n = 0; n < statements && calculating_ && running_; ++n) {
+    for (int n = 0; n < statements && calculating() && running_; ++n) {
         const StoredProgram* const program = card_->program(at_.program);
         const auto count = program == nullptr ? 0 : static_cast<int>(program->statements().size());
         if (at_.statement >= count) {
@@ -21,8 +21,7 @@ void CoordinateSystem::calculate(int statements) {
                 return;
             }
             if (calls_.empty()) {
-                calculating_ = false;
-                ended_ = true;
+                calculation_ = Calculation::at_end;
                 return;
             }
             at_ = calls_.back();
@@ -65,7 +64,7 @@ CoordinateSystem::Next CoordinateSystem::execute(const Statement& statement) {
         return wait_then(statement);
     case Verb::stop:
         ++at_.statement;
-        calculating_ = false;
+        calculation_ = Calculation::stopped;
         return Next::end;
     default:
         return service(statement);
@@ -80,7 +79,7 @@ CoordinateSystem::Next CoordinateSystem::jump(const Statement& statement) {
 }
 
 void CoordinateSystem::fail() {
-    run_time_error_ = true;
+    run_error_ = run_error_ == RunError::none ? RunError::run_time : run_error_;
     halt();
 }
 
@@ -195,7 +194,9 @@ void CoordinateSystem::set_modal(const Statement& statement) {
     case Verb::absolute:
     case Verb::incremental:
         each(incremental_, statement.verb == Verb::incremental);
-        center_absolute_ = statement.radius ? statement.verb == Verb::absolute : center_absolute_;
+        if (statement.radius) {
+            center_ = statement.verb == Verb::absolute ? CenterMode::absolute : CenterMode::incremental;
+        }
         break;
     case Verb::feed_axes:
         if (statement.axes.empty()) {
@@ -255,7 +256,7 @@ CoordinateSystem::Next CoordinateSystem::service(const Statement& statement) {
     case Verb::block_stop:
         in_block_ = statement.verb == Verb::block_start;
         if (!in_block_ && stepping_) {
-            calculating_ = false;
+            calculation_ = Calculation::stopped;
         }
         break;
     default:

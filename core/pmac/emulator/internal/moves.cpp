@@ -33,7 +33,7 @@ CoordinateSystem::Next CoordinateSystem::move(const Statement& statement) {
             keep_to_limits(made);
         }
         add(made);
-        return calculating_ ? Next::go_on : Next::end;
+        return calculating() ? Next::go_on : Next::end;
     }
     for (const Statement::AxisWord& word : statement.words) {
         const std::size_t axis = axis_letters.find(word.letter);
@@ -44,13 +44,13 @@ CoordinateSystem::Next CoordinateSystem::move(const Statement& statement) {
     }
     const bool circle = mode_ == Mode::clockwise || mode_ == Mode::counter_clockwise;
     if (circle && is_segmented() && !shape_arc(statement, made)) {
-        radius_error_ = true;
+        run_error_ = RunError::radius;
         fail();
         return Next::end;
     }
     mode_ == Mode::rapid ? time_rapid(made) : time_move(made);
     add(made);
-    return calculating_ ? Next::go_on : Next::end;
+    return calculating() ? Next::go_on : Next::end;
 }
 
 void CoordinateSystem::add(Move made) {
@@ -64,7 +64,7 @@ void CoordinateSystem::add(Move made) {
     }
     ++moves_;
     if (stepping_ && !in_block_) {
-        calculating_ = false;
+        calculation_ = Calculation::stopped;
     }
 }
 
@@ -214,7 +214,7 @@ bool CoordinateSystem::shape_arc(const Statement& statement, Move& made) {
         const Vec3 side = normal.cross(across).normalized();
         arc.center = from + 0.5 * across + std::copysign(std::sqrt(std::max(0.0, room)), *radius) * side;
     } else if (told) {
-        const Vec3 vector = center_absolute_ ? Vec3(*told - from) : *told;
+        const Vec3 vector = center_ == CenterMode::absolute ? Vec3(*told - from) : *told;
         arc.center = from + (vector - vector.dot(normal) * normal);
     } else {
         return false;
