@@ -31,7 +31,8 @@ std::optional<Include> include_in(const Line& line) {
     return Include{.line = line.number, .path = rest.substr(1, end - 1), .quoted = rest.starts_with('"')};
 }
 
-// A folder of the core may include those of a smaller rank; two of the same rank know nothing of each other.
+// A folder of the core, or of app, may include those of a smaller rank; two of the same rank know nothing of
+// each other.
 struct Rank {
     std::string_view folder;
     int rank;
@@ -47,33 +48,60 @@ constexpr std::array core_order = {
     Rank{"studies", 11},     Rank{"region", 2},
 };
 
-/// core/grid/adapt.h -> grid; empty outside the core.
-std::string_view core_folder(std::string_view path) {
-    constexpr std::string_view core = "core/";
-    if (!path.starts_with(core)) {
+// What lies in app itself, main and the window, may include all of them, and none of them it.
+constexpr std::array app_order = {
+    Rank{"command_line", 0},
+    Rank{"cordic", 1},
+    Rank{"gcode", 1},
+    Rank{"plan", 1},
+    Rank{"studies", 1},
+    Rank{"drivers", 2},
+    Rank{"simulation", 2},
+    Rank{"arm", 3},
+    Rank{"plots", 3},
+};
+
+/// The folder inside of `part`: core/grid/adapt.h -> grid; empty elsewhere, and for files of `part` itself.
+std::string_view folder_in(std::string_view part, std::string_view path) {
+    if (!is_inside(path, part)) {
         return {};
     }
-    path.remove_prefix(core.size());
-    return path.substr(0, path.find('/'));
+    path.remove_prefix(part.size() + 1);
+    const std::size_t end = path.find('/');
+    return end == std::string_view::npos ? std::string_view() : path.substr(0, end);
 }
 
-std::optional<int> core_rank(std::string_view path) {
-    const auto* found = std::ranges::find(core_order, core_folder(path), &Rank::folder);
-    return found == core_order.end() ? std::nullopt : std::optional(found->rank);
+std::optional<int> rank_of(std::string_view folder, std::span<const Rank> order) {
+    const auto found = std::ranges::find(order, folder, &Rank::folder);
+    return found == order.end() ? std::nullopt : std::optional(found->rank);
 }
 
-std::string upward_in_core(std::string_view path, const Include& include) {
-    const auto from = core_folder(path);
-    const auto into = core_folder(include.path);
+std::string
+upward(const std::string& part, std::span<const Rank> order, std::string_view path, const Include& include) {
+    const auto from = folder_in(part, path);
+    const auto into = folder_in(part, include.path);
     if (from.empty() || into.empty() || from == into) {
         return {};
     }
-    const auto rank = core_rank(path);
-    const auto other = core_rank(include.path);
+    const auto rank = rank_of(from, order);
+    const auto other = rank_of(into, order);
     if (!rank || !other) {
-        return "core/" + std::string(rank ? into : from) + " has no place in the order of the core's folders";
+        return part + "/" + std::string(rank ? into : from) + " has no place in the order of " + part +
+               "'s folders";
     }
-    return *other < *rank ? std::string() : "core/" + std::string(from) + " includes upward";
+    return *other < *rank ? std::string() : part + "/" + std::string(from) + " includes upward";
+}
+
+std::string upward_in_core(std::string_view path, const Include& include) {
+    return upward("core", core_order, path, include);
+}
+
+std::string upward_in_app(std::string_view path, const Include& include) {
+    const bool of_app_itself = is_inside(include.path, "app") && folder_in("app", include.path).empty();
+    if (of_app_itself && !folder_in("app", path).empty()) {
+        return "app/" + std::string(folder_in("app", path)) + " includes upward";
+    }
+    return upward("app", app_order, path, include);
 }
 
 // What each part of the tree may not see of the others.
@@ -203,6 +231,7 @@ std::string not_from_the_root(std::string_view, const Include& include) {
 
 constexpr std::array rules = {
     upward_in_core,
+    upward_in_app,
     across_border,
     into_internal,
     away_from_home,

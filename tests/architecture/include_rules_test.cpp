@@ -50,6 +50,22 @@ TEST(Includes, OfAnUnknownFolderInTheCoreAreFound) {
                 ElementsAre("core/extras has no place in the order of the core's folders: core/extras/a.h"));
 }
 
+TEST(Includes, GoDownInTheOrderOfTheProgramsAreas) {
+    EXPECT_THAT(said_of("app/plots/a.cpp", "\"app/drivers/run.h\""), IsEmpty());
+    EXPECT_THAT(said_of("app/plots/a.cpp", "\"app/plots/b.h\""), IsEmpty());
+    EXPECT_THAT(said_of("app/main.cpp", "\"app/workbench.h\""), IsEmpty());
+    EXPECT_THAT(said_of("app/main.cpp", "\"app/plots/b.h\""), IsEmpty());
+    EXPECT_THAT(said_of("app/drivers/a.cpp", "\"app/plots/b.h\""),
+                ElementsAre("app/drivers includes upward: app/plots/b.h"));
+    EXPECT_THAT(said_of("app/gcode/a.cpp", "\"app/plan/b.h\""),
+                ElementsAre("app/gcode includes upward: app/plan/b.h"));
+    EXPECT_THAT(said_of("app/command_line/a.cpp", "\"app/workbench.h\""),
+                ElementsAre("app/command_line includes upward: app/workbench.h"));
+    EXPECT_THAT(
+        said_of("app/extras/a.cpp", "\"app/command_line/command.h\""),
+        ElementsAre("app/extras has no place in the order of app's folders: app/command_line/command.h"));
+}
+
 TEST(Includes, NeverCrossFromThePartsBelowToThoseAbove) {
     EXPECT_THAT(said_of("core/project/a.cpp", "\"app/main.h\""),
                 ElementsAre("core knows nothing of app: app/main.h"));

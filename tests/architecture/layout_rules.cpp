@@ -59,7 +59,8 @@ bool must_be_listed(std::string_view path) {
     if (!ours || !is_header(path)) {
         return ours && is_source(path);
     }
-    const bool library = is_inside(path, "core") || is_inside(path, "ui");
+    const bool library = is_inside(path, "core") || is_inside(path, "ui") ||
+                         (is_inside(path, "app") && folder_of(path) != "app");
     return library && path.find("/internal/") == std::string_view::npos;
 }
 

@@ -314,9 +314,10 @@ std::vector<Finding> check_modules(const std::vector<TextFile>& files, std::span
     std::map<std::string, int> modules;
     for (const auto& [path, text] : files) {
         if (is_product(path) && !is_inside(path, "bench")) {
-            const std::size_t folder =
-                is_inside(path, "app") ? path.find('/') : path.find('/', path.find('/') + 1);
-            modules[path.substr(0, folder)] += static_cast<int>(lines_of(text).size());
+            const std::size_t part = path.find('/');
+            const std::size_t folder = path.find('/', part + 1); // none: a file of app itself
+            modules[path.substr(0, folder == std::string::npos ? part : folder)] +=
+                static_cast<int>(lines_of(text).size());
         }
     }
     std::vector<Finding> findings;

@@ -41,8 +41,8 @@ struct Sized {
 [[nodiscard]] std::vector<Finding> check_flags(const std::vector<TextFile>& files,
                                                std::span<const Larger> larger);
 
-/// Modules (core/grid, ui/panels, app) with more than 12,000 lines, and entries of `larger` that are not
-/// needed: their `path` is the module's folder.
+/// Modules (core/grid, ui/panels, app/plan, and app with its own files) with more than 12,000 lines, and
+/// entries of `larger` that are not needed: their `path` is the module's folder.
 [[nodiscard]] std::vector<Finding> check_modules(const std::vector<TextFile>& files,
                                                  std::span<const Larger> larger);
 

@@ -91,27 +91,29 @@ TEST(ModuleSize, IsAtMost12000LinesButForWhatIsListed) {
     const std::vector<TextFile> files{{"core/grid/a.cpp", text_of(6000)},
                                       {"core/grid/internal/b.h", text_of(6000)},
                                       {"core/plot/c.cpp", text_of(12001)},
-                                      {"app/commands/d.cpp", text_of(7000)},
-                                      {"app/e.cpp", text_of(6000)}};
+                                      {"app/plan/d.cpp", text_of(12001)},
+                                      {"app/e.cpp", text_of(6000)},
+                                      {"app/f.cpp", text_of(6001)}};
     EXPECT_THAT(check_modules(files, {}),
-                ElementsAre(Finding{"app", 0, "13000 lines, more than 12000"},
+                ElementsAre(Finding{"app", 0, "12001 lines, more than 12000"},
+                            Finding{"app/plan", 0, "12001 lines, more than 12000"},
                             Finding{"core/plot", 0, "12001 lines, more than 12000"}));
-    constexpr std::array listed{
-        Larger{"app", "", 13000}, Larger{"core/plot", "", 13000}, Larger{"core/grid", "", 13000}};
+    constexpr std::array listed{Larger{"app", "", 13000},
+                                Larger{"app/plan", "", 13000},
+                                Larger{"core/plot", "", 13000},
+                                Larger{"core/grid", "", 13000}};
     EXPECT_THAT(check_modules(files, listed),
                 ElementsAre(Finding{"core/grid", 0, "is within the limit: take it off the list"}));
 }
 
 /// Each entry may only get smaller, and none may be added.
 constexpr std::array long_functions = {
-    Larger{"app/commands/simulate_command.cpp", "simulate", 64},
-    Larger{"app/simulated_work.cpp", "work_of_project", 65},
+    Larger{"app/simulation/simulate_command.cpp", "simulate", 64},
+    Larger{"app/simulation/simulated_work.cpp", "work_of_project", 65},
     Larger{"core/simulation/collision_mesh.cpp", "CollisionMesh::deepest", 71},
     Larger{"core/simulation/internal/tile_cutter.cpp", "TileCutter::attempt_between", 61},
 };
 constexpr std::array many_flags = {
-    Larger{"app/commands/emulate_command.cpp", "EmulateOptions", 6},
-    Larger{"app/connected_controller.h", "ControllerChoice", 13},
     Larger{"core/drivers/driver.h", "Capabilities", 20},
     Larger{"core/drivers/driver_status.h", "DriverStatus", 6},
     Larger{"core/drivers/grbl/internal/grbl_session.h", "GrblSession", 19},
@@ -128,7 +130,6 @@ constexpr std::array many_flags = {
 };
 
 constexpr std::array large_modules = {
-    Larger{"app", "", 21500},
     Larger{"core/plot", "", 13900},
     Larger{"ui/actions", "", 12800},
     Larger{"ui/panels", "", 18000},

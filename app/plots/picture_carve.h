@@ -1,0 +1,14 @@
+// `millwright picture carve`: what is dark in a picture, V-carved.
+#pragma once
+
+#include "app/command_line/command.h"
+
+namespace CLI {
+class App;
+} // namespace CLI
+
+namespace millwright::app {
+
+void add_picture_carve(CLI::App& group, Command& chosen);
+
+} // namespace millwright::app

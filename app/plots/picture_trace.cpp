@@ -1,0 +1,116 @@
+#include "app/plots/picture_trace.h"
+
+#include "app/command_line/finite_number.h"
+#include "app/command_line/watched_work.h"
+#include "app/plots/picture_choice.h"
+#include "app/plots/stroke_cutting.h"
+#include "app/plots/traced_picture.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/plot/picture/trace.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace millwright::app {
+
+namespace {
+
+struct PictureTraceOptions {
+    PictureChoice picture;
+    plot::TraceSettings tracing;
+    double chord_tolerance = 0.005;
+    StrokeCutting cutting;
+    std::vector<const CLI::Option*> of_programs; ///< that an SVG file has nothing of
+};
+
+/// By the ending of the file's name. Throws Error for one that is neither a drawing's nor a program's.
+bool is_drawing(const std::filesystem::path& out) {
+    constexpr std::array<std::string_view, 9> of_programs{
+        "", ".ngc", ".nc", ".gcode", ".g", ".tap", ".cnc", ".h", ".txt"};
+    std::string ending = out.extension().string();
+    std::ranges::transform(
+        ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending != ".svg" && std::ranges::find(of_programs, ending) == of_programs.end()) {
+        throw Error(fmt::format("outlines cannot be written as {}", ending),
+                    out,
+                    "use a name ending in .svg for a drawing, or in .ngc for a program");
+    }
+    return ending == ".svg";
+}
+
+/// Nothing that was asked for is left out without a word.
+void expect_outlines_alone(const PictureTraceOptions& options) {
+    for (const CLI::Option* const option : options.of_programs) {
+        if (option->count() > 0) {
+            throw Error(fmt::format("{} applies only to a program; an SVG file contains only outlines",
+                                    option->get_name()),
+                        options.cutting.cutting.out,
+                        "use a name ending in .ngc for a program");
+        }
+    }
+}
+
+int trace(const PictureTraceOptions& options) {
+    const std::filesystem::path out = options.cutting.cutting.out;
+    const bool drawing = is_drawing(out);
+    if (drawing) {
+        expect_outlines_alone(options);
+    }
+    WatchedWork work;
+    const SizedPicture sized = read_chosen(options.picture, work.progress());
+    work.finish();
+    const auto paths = traced_outlines(sized, options.picture, options.tracing);
+    std::size_t curves = 0;
+    for (const plot::TracedPath& path : paths) {
+        curves += path.curves.size();
+    }
+    fmt::print("{} {} of {} {}\n",
+               paths.size(),
+               paths.size() == 1 ? "outline" : "outlines",
+               curves,
+               curves == 1 ? "curve" : "curves");
+    if (drawing) {
+        write_file(out, plot::svg_text(paths, sized.picture, sized.pitch));
+        return 0;
+    }
+    cut_strokes(plot::strokes_of(paths, sized.pitch, options.chord_tolerance),
+                Vec2::Zero(),
+                options.cutting,
+                {"traced: " + std::filesystem::path(options.picture.file).filename().string()},
+                work.progress());
+    return 0;
+}
+
+} // namespace
+
+void add_picture_trace(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<PictureTraceOptions>();
+    CLI::App& command = *group.add_subcommand("trace", "Trace the outlines of dark areas");
+    add_picture_options(command, options->picture);
+    command.add_option("--out", options->cutting.cutting.out, "SVG file (.svg) or G-code file")->required();
+    add_tracing_options(command, options->tracing);
+    const std::size_t of_both = command.get_options().size();
+    command
+        .add_option(
+            "--arc-tolerance", options->chord_tolerance, "G-code: largest deviation from the curves, mm")
+        ->check(above_zero())
+        ->capture_default_str();
+    add_stroke_options(command, options->cutting);
+    const std::vector<CLI::Option*> all = command.get_options();
+    options->of_programs.assign(all.begin() + static_cast<std::ptrdiff_t>(of_both), all.end());
+    command.callback([&chosen, options] { chosen = [options] { return trace(*options); }; });
+}
+
+} // namespace millwright::app
