@@ -86,8 +86,8 @@ upward(const std::string& part, std::span<const Rank> order, std::string_view pa
     const auto rank = rank_of(from, order);
     const auto other = rank_of(into, order);
     if (!rank || !other) {
-        return part + "/" + std::string(rank ? into : from) + " has no place in the order of " + part +
-               "'s folders";
+        return part + "/" + std::string(rank ? into : from) +
+               " has no place in the order of the folders of " + part;
     }
     return *other < *rank ? std::string() : part + "/" + std::string(from) + " includes upward";
 }

@@ -45,9 +45,9 @@ TEST(Includes, KeepGeometryAndCordicApart) {
 TEST(Includes, OfAnUnknownFolderInTheCoreAreFound) {
     EXPECT_THAT(
         said_of("core/extras/a.cpp", "\"core/base/error.h\""),
-        ElementsAre("core/extras has no place in the order of the core's folders: core/base/error.h"));
+        ElementsAre("core/extras has no place in the order of the folders of core: core/base/error.h"));
     EXPECT_THAT(said_of("core/grid/a.cpp", "\"core/extras/a.h\""),
-                ElementsAre("core/extras has no place in the order of the core's folders: core/extras/a.h"));
+                ElementsAre("core/extras has no place in the order of the folders of core: core/extras/a.h"));
 }
 
 TEST(Includes, GoDownInTheOrderOfTheProgramsAreas) {
@@ -63,7 +63,8 @@ TEST(Includes, GoDownInTheOrderOfTheProgramsAreas) {
                 ElementsAre("app/command_line includes upward: app/workbench.h"));
     EXPECT_THAT(
         said_of("app/extras/a.cpp", "\"app/command_line/command.h\""),
-        ElementsAre("app/extras has no place in the order of app's folders: app/command_line/command.h"));
+        ElementsAre(
+            "app/extras has no place in the order of the folders of app: app/command_line/command.h"));
 }
 
 TEST(Includes, NeverCrossFromThePartsBelowToThoseAbove) {
