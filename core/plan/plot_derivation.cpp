@@ -3,13 +3,13 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode_programs/cut_program.h"
+#include "core/hpgl/reader.h"
 #include "core/kinematics/machine_file.h"
 #include "core/plan/internal/failure.h"
 #include "core/plan/internal/plot_view.h"
 #include "core/plan/internal/posted_plot.h"
 #include "core/plan/plot_time.h"
 #include "core/plot/closing.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
@@ -115,16 +115,16 @@ void PlotDerivation::time_as_drawn() {
 }
 
 void PlotDerivation::cut_drawing() {
-    plot::HpglSettings reading = settings_.hpgl;
+    hpgl::HpglSettings reading = settings_.hpgl;
     const bool carved = project::is_carved(result_.input);
     if (carved) { // whole outlines
-        reading.fill = reading.fill == plot::FillMode::hatched ? plot::FillMode::outline : reading.fill;
+        reading.fill = reading.fill == hpgl::FillMode::hatched ? hpgl::FillMode::outline : reading.fill;
         reading.dashes = false;
         reading.arc_tolerance =
             reading.arc_tolerance.value_or(plot::carving_chords(settings_.carving_tolerance));
     }
-    const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
-    result_.notices = plot::notices(read, result_.input.file);
+    const hpgl::Plot read = hpgl::read_hpgl_file(result_.input.file, reading);
+    result_.notices = hpgl::notices(read, result_.input.file);
     if (carved) {
         return carve_strokes(read.strokes);
     }

@@ -268,11 +268,11 @@ TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
         change(changed.settings);
         return seen(changed) != seen(input);
     };
-    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = plot::FillMode::outline; }));
-    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = plot::FillMode::none; }));
+    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = hpgl::FillMode::outline; }));
+    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = hpgl::FillMode::none; }));
     EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.dashes = false; }));
     EXPECT_TRUE(
-        differs(drawing, [](project::PlotSettings& s) { s.hpgl.line_ends = plot::LineEnds::separate; }));
+        differs(drawing, [](project::PlotSettings& s) { s.hpgl.line_ends = hpgl::LineEnds::separate; }));
     EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.post = "grbl"; }));
     const project::PlotInput outlines = picture_input(project::PictureUse::outlines);
     EXPECT_TRUE(differs(outlines, [](project::PlotSettings& s) { s.picture.invert = true; }));
@@ -293,7 +293,7 @@ TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
     EXPECT_TRUE(differs(thin, [](project::PlotSettings& s) { s.through = true; }));
     std::ofstream(scratch / "bad.plt") << "SP1;PU0,0;PD400,0;QX;";
     const project::PlotInput bad{scratch / "bad.plt", {}};
-    EXPECT_TRUE(differs(bad, [](project::PlotSettings& s) { s.hpgl.strictness = plot::Strictness::strict; }));
+    EXPECT_TRUE(differs(bad, [](project::PlotSettings& s) { s.hpgl.strictness = hpgl::Strictness::strict; }));
 }
 
 TEST(PlotWork, TheProgramIsThatOfThePathAndGoesWithItsWorker) {
