@@ -46,7 +46,7 @@ TEST(PathFiles, AByteOrderMarkIsSkipped) {
 TEST(PathFiles, AndPointFilesInUtf16AreRefused) {
     using namespace std::string_literals;
     for (const std::string& text :
-         {"\xFF\xFE1\0,\0002\0"s, "\xFE\xFF\0001\0,\0002"s, "1\0,\0002\0;\0"s, "\0001\0,\0002\0;"s}) {
+         {"\xFF\xFEx\0;\0y\0;\0"s, "\xFE\xFF\0x\0;\0y"s, "x\0;\0y\0;\0"s, "\0x\0;\0y\0;"s}) {
         const PointFile points = read_points(text, "wide.csv");
         ASSERT_EQ(points.diagnostics.size(), 1U);
         EXPECT_THAT(to_text(points.diagnostics[0]), HasSubstr("wide.csv:1: the file is text in UTF-16"));
