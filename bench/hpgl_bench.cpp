@@ -2,8 +2,8 @@
 // hp2xx is installed), and how fast strokes are ordered.
 #include "bench/processor_time.h"
 #include "core/base/files.h"
+#include "core/hpgl/reader.h"
 #include "core/plot/decode.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/ordering.h"
 
 #include <benchmark/benchmark.h>
@@ -53,7 +53,7 @@ void beside_hp2xx(benchmark::State& state) {
     double theirs = 0.0;
     for (auto _ : state) {
         const double self = processor_time(RUSAGE_SELF);
-        benchmark::DoNotOptimize(read_hpgl_file(file.path()));
+        benchmark::DoNotOptimize(hpgl::read_hpgl_file(file.path()));
         ours += processor_time(RUSAGE_SELF) - self;
         const double children = processor_time(RUSAGE_CHILDREN);
         if (std::system(command.c_str()) != 0) { // NOLINT(bugprone-command-processor,cert-env33-c)
@@ -77,7 +77,7 @@ void decoding(benchmark::State& state) {
     DecodeSettings settings;
     settings.velocity = 1000.0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(decode(read_hpgl_file(file.path()).strokes, settings));
+        benchmark::DoNotOptimize(decode(hpgl::read_hpgl_file(file.path()).strokes, settings));
     }
     state.SetItemsProcessed(state.iterations() * count);
 }

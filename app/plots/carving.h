@@ -4,7 +4,7 @@
 #include "app/command_line/watched_work.h"
 #include "app/plots/cutting.h"
 #include "core/plot/carving/v_carving.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <string>
 #include <vector>

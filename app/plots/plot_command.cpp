@@ -13,9 +13,9 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"
+#include "core/hpgl/reader.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/decode_within.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/point_file.h"
 #include "core/plot/stroke_svg.h"
 #include "core/plot/work_time.h"
@@ -42,8 +42,8 @@ namespace millwright::app {
 
 namespace {
 
+using hpgl::Plot;
 using plot::DecodeMode;
-using plot::Plot;
 using plot::SampleRounding;
 using plot::Strokes;
 
@@ -71,7 +71,7 @@ struct PlotOptions {
     bool json = false;
     bool solid = false;
     bool no_air = false;
-    plot::HpglSettings reading;
+    hpgl::HpglSettings reading;
     plot::DecodeSettings decode;
     std::optional<double> fastest;
     int decimals = 2;
@@ -82,7 +82,7 @@ struct PlotOptions {
 };
 
 /// A length in mm, or one along x and one along y with a comma between.
-std::optional<plot::PlotterUnit> lengths_of(std::string_view text) {
+std::optional<hpgl::PlotterUnit> lengths_of(std::string_view text) {
     std::array<double, 2> lengths{};
     std::size_t count = 0;
     while (count < lengths.size()) {
@@ -93,7 +93,7 @@ std::optional<plot::PlotterUnit> lengths_of(std::string_view text) {
         ++count;
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         if (text.empty()) {
-            return plot::PlotterUnit{.x = lengths[0], .y = lengths[count - 1]};
+            return hpgl::PlotterUnit{.x = lengths[0], .y = lengths[count - 1]};
         }
         if (text.front() != ',') {
             return std::nullopt;
@@ -103,12 +103,12 @@ std::optional<plot::PlotterUnit> lengths_of(std::string_view text) {
     return std::nullopt;
 }
 
-plot::PlotterUnit unit_of(const std::string& text) {
+hpgl::PlotterUnit unit_of(const std::string& text) {
     if (text == "nominal") {
-        return plot::nominal_unit;
+        return hpgl::nominal_unit;
     }
     if (text == "table") {
-        return plot::table_unit;
+        return hpgl::table_unit;
     }
     if (const auto unit = lengths_of(text)) {
         return *unit;
@@ -118,15 +118,15 @@ plot::PlotterUnit unit_of(const std::string& text) {
 }
 
 Plot read_plot(const PlotOptions& options) {
-    plot::HpglSettings settings = options.reading;
+    hpgl::HpglSettings settings = options.reading;
     settings.unit = unit_of(options.unit);
-    settings.strictness = options.strict ? plot::Strictness::strict : plot::Strictness::tolerant;
+    settings.strictness = options.strict ? hpgl::Strictness::strict : hpgl::Strictness::tolerant;
     settings.dashes = !options.solid;
-    return plot::read_hpgl_file(options.file, settings);
+    return hpgl::read_hpgl_file(options.file, settings);
 }
 
 void print_notices(const Plot& plot, const std::string& file) {
-    for (const Diagnostic& notice : plot::notices(plot, file)) {
+    for (const Diagnostic& notice : hpgl::notices(plot, file)) {
         fmt::print(stderr, "millwright: {}\n", to_text(notice));
     }
 }
@@ -166,7 +166,7 @@ nlohmann::ordered_json plot_json(const Plot& plot) {
                                      {"width_mm", said(use.width)}});
     }
     answer["left_out"] = nlohmann::ordered_json::array();
-    for (const plot::LeftOut& left_out : plot.left_out) {
+    for (const hpgl::LeftOut& left_out : plot.left_out) {
         answer["left_out"].push_back(
             {{"command", left_out.name}, {"count", left_out.count}, {"why", left_out.why}});
     }
@@ -342,7 +342,7 @@ add_reader(CLI::App& group, const char* name, const char* text, const std::share
     command.add_option("--fill", options->reading.fill, "Filled areas: hatched, outline or none")
         ->transform(one_of(by_id(project::fill_modes())))
         ->type_name(choice_list(by_id(project::fill_modes())))
-        ->default_str(options->reading.fill == plot::FillMode::outline ? "outline" : "hatched");
+        ->default_str(options->reading.fill == hpgl::FillMode::outline ? "outline" : "hatched");
     command.add_flag("--solid", options->solid, "Draw dashed lines solid");
     command
         .add_option(
@@ -440,7 +440,7 @@ void add_toolpath(CLI::App& group, const std::shared_ptr<PlotOptions>& options, 
 /// Whole outlines are carved: the edges of what is filled, and dashed ones solid.
 void add_carve(CLI::App& group, Command& chosen) {
     const auto options = std::make_shared<PlotOptions>();
-    options->reading.fill = plot::FillMode::outline;
+    options->reading.fill = hpgl::FillMode::outline;
     options->solid = true;
     CLI::App& command =
         add_reader(group, "carve", "V-carve the areas that its closed strokes enclose", options);

@@ -8,7 +8,7 @@
 #include "core/gcode/tool_table.h"
 #include "core/gcode_programs/work_origin.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,5 +1,6 @@
 #include "core/plan/import_work.h"
 
+#include "core/base/published.h"
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/failure.h"
 #include "core/project/part_trims.h"
@@ -7,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <mutex>
 #include <utility>
 
 namespace millwright::plan {
@@ -55,14 +55,10 @@ public:
 
     void close() {
         background_.clear(); // first: what runs publishes nothing any more
-        const std::scoped_lock lock(mutex_);
-        latest_.reset();
+        published_.clear();
     }
 
-    [[nodiscard]] std::shared_ptr<const ImportResult> latest() const {
-        const std::scoped_lock lock(mutex_);
-        return latest_;
-    }
+    [[nodiscard]] std::shared_ptr<const ImportResult> latest() const { return published_.latest(); }
     [[nodiscard]] Activity activity() const { return background_.activity(); }
     void wait_idle() const { background_.wait_idle(); }
 
@@ -91,19 +87,12 @@ private:
     }
 
     void publish(ImportResult found, const Progress& progress) {
-        {
-            const std::scoped_lock lock(mutex_);
-            progress.check(); // closed in the meantime
-            found.revision = ++revision_;
-            latest_ = std::make_shared<const ImportResult>(std::move(found));
-        }
+        published_.publish(std::move(found), progress); // if it was not closed in the meantime
         wake_();
     }
 
     std::function<void()> wake_;
-    mutable std::mutex mutex_; ///< guards what follows
-    std::shared_ptr<const ImportResult> latest_;
-    std::uint64_t revision_ = 0;
+    Published<ImportResult> published_;
     Background background_; // last: its thread ends before the rest goes
 };
 

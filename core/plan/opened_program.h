@@ -1,9 +1,11 @@
-// A G-code file that a person opened: its text, the path it makes, what is in force when, and its motion on a
-// machine. Read in the background; what is there can be looked at while the rest is still coming.
+// A G-code program that is looked at, of a file that a person opened or of a plot: its text, the path it
+// makes, what is in force when, and its motion on a machine. What is there can be looked at while the rest is
+// still coming.
 #pragma once
 
 #include "core/base/error.h"
 #include "core/base/file_snapshot.h"
+#include "core/base/progress.h"
 #include "core/gcode/dialect.h"
 #include "core/gcode/line_index.h"
 #include "core/gcode/preview_path.h"
@@ -20,6 +22,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::plan {
@@ -33,9 +36,20 @@ struct ReadingChoice {
 };
 
 /// A text that is one whole, to be shown line by line.
-struct ProgramText {
-    FileSnapshot bytes;
-    gcode::LineIndex lines; ///< of `bytes`
+class ProgramText {
+public:
+    /// Each throws Cancelled.
+    explicit ProgramText(FileSnapshot bytes, const Progress& progress = Progress());
+    explicit ProgramText(std::shared_ptr<const program::Listing> listing,
+                         const Progress& progress = Progress());
+
+    [[nodiscard]] std::string_view text() const { return listing_ ? listing_->text : bytes_.text(); }
+    [[nodiscard]] const gcode::LineIndex& lines() const { return lines_; }
+
+private:
+    FileSnapshot bytes_;
+    std::shared_ptr<const program::Listing> listing_; ///< null: the bytes of a file
+    gcode::LineIndex lines_;
 };
 
 /// The motion on the chosen machine.
@@ -47,10 +61,10 @@ struct PlannedMotion {
     std::string moved_axes; ///< letters of those that it positions, in the machine's order
 };
 
-/// Everything known of an opened file at one moment. Immutable once published; parts that are not there yet
+/// Everything known of the program at one moment. Immutable once published; parts that are not there yet
 /// are null or empty.
 struct OpenedProgram {
-    std::filesystem::path file;
+    std::filesystem::path file; ///< of a plot its name alone: there is no such file
     ReadingChoice choice;
     std::shared_ptr<const kinematics::MachineModel> machine;
     std::shared_ptr<const ProgramText> text;

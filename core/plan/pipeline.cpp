@@ -1,5 +1,6 @@
 #include "core/plan/pipeline.h"
 
+#include "core/base/published.h"
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/derivation.h"
 #include "core/plan/internal/failure.h"
@@ -23,10 +24,7 @@ public:
     }
     void stop() { background_.clear(); }
 
-    [[nodiscard]] std::shared_ptr<const PublishedPlan> latest() const {
-        const std::scoped_lock lock(mutex_);
-        return latest_;
-    }
+    [[nodiscard]] std::shared_ptr<const PublishedPlan> latest() const { return published_.latest(); }
     [[nodiscard]] Activity activity() const { return background_.activity(); }
     void wait_idle() const { background_.wait_idle(); }
 
@@ -46,18 +44,12 @@ private:
     }
 
     void set(PublishedPlan plan) {
-        {
-            const std::scoped_lock lock(mutex_);
-            plan.revision = ++revision_;
-            latest_ = std::make_shared<const PublishedPlan>(std::move(plan));
-        }
+        published_.publish(std::move(plan));
         wake_();
     }
 
     std::function<void()> wake_;
-    mutable std::mutex mutex_;
-    std::shared_ptr<const PublishedPlan> latest_;
-    std::uint64_t revision_ = 0;
+    Published<PublishedPlan> published_;
     Derivation derivation_; // of the worker
     Background background_; // last: its thread uses all of the above
 };

@@ -3,13 +3,14 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode_programs/cut_program.h"
+#include "core/hpgl/reader.h"
 #include "core/kinematics/machine_file.h"
 #include "core/plan/internal/failure.h"
 #include "core/plan/internal/plot_view.h"
 #include "core/plan/internal/posted_plot.h"
+#include "core/plan/internal/program_reading.h"
 #include "core/plan/plot_time.h"
 #include "core/plot/closing.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
@@ -42,7 +43,74 @@ constexpr int look_squares = 160;
 
 } // namespace
 
-void PlotDerivation::make_path() {
+const std::vector<PlotDerivation::Stage>& PlotDerivation::stages() {
+    static const std::vector<Stage> rows = {
+        {.share = 0.5, .make = &PlotDerivation::make_path, .shown = true},
+        {.share = 0.2, .make = &PlotDerivation::make_look},
+        {.make = &PlotDerivation::check_speeds, .shown = true},
+        {.title = "Writing the program",
+         .share = 0.1,
+         .make = &PlotDerivation::make_program,
+         .of_program = true},
+        {.share = 0.1, .make = &PlotDerivation::time_as_drawn, .of_program = true, .finishes = true},
+        {.share = 0.1, .make = &PlotDerivation::make_motion, .of_program = true, .shown = true},
+    };
+    return rows;
+}
+
+void PlotDerivation::run(const Publish& publish) {
+    whole_.report(0.0, "Cutting " + result_.input.file.filename().string());
+    run(stages(), publish);
+}
+
+void PlotDerivation::run_program(const Publish& publish) {
+    std::vector<Stage> of_program = stages();
+    std::erase_if(of_program, [](const Stage& stage) { return !stage.of_program; });
+    asked_for_ = true;
+    run(of_program, publish);
+}
+
+void PlotDerivation::run(const std::vector<Stage>& stages, const Publish& publish) {
+    double work = 0.0;
+    for (const Stage& stage : stages) {
+        work += stage.share;
+    }
+    double done = 0.0;
+    result_.failure = failure_of([&] {
+        for (const Stage& stage : stages) {
+            progress_ = whole_.part(done / work, (done + stage.share) / work);
+            done += stage.share;
+            if (!stage.of_program || wants_program()) {
+                make(stage, publish);
+            } else {
+                result_.program = nullptr;
+                result_.opened = nullptr;
+            }
+        }
+    });
+    if (result_.failure) {
+        result_.program = nullptr;
+        result_.opened = nullptr;
+    }
+    if (result_.failure || !result_.finished) {
+        whole_.check(); // no longer needed: what is there stays
+        result_.finished = true;
+        publish();
+    }
+}
+
+void PlotDerivation::make(const Stage& stage, const Publish& publish) {
+    progress_.check();
+    progress_.report(0.0, stage.title);
+    (this->*stage.make)(publish);
+    progress_.check(); // no longer needed: what is there stays
+    result_.finished = result_.finished || stage.finishes;
+    if (stage.shown || stage.finishes) {
+        publish();
+    }
+}
+
+void PlotDerivation::make_path(const Publish&) {
     result_.picture = project::is_picture_file(result_.input.file);
     if (project::is_path_file(result_.input.file)) {
         use(plot::read_path(read_file(result_.input.file), result_.input.file));
@@ -63,7 +131,7 @@ void PlotDerivation::make_path() {
     }
 }
 
-void PlotDerivation::check_speeds() {
+void PlotDerivation::check_speeds(const Publish&) {
     const kinematics::MachineModel machine = kinematics::read_machine(
         project::machine_path(settings_.machine, result_.input.file.parent_path(), assets_));
     note(plot::speeds_not_reached(*result_.path, machine));
@@ -76,15 +144,15 @@ void PlotDerivation::note(std::optional<Diagnostic> notice) {
     }
 }
 
-void PlotDerivation::make_look() {
+void PlotDerivation::make_look(const Publish&) {
     const plot::ToolTips tips = tips_of(result_);
     const bool cuts =
         std::ranges::any_of(*result_.path, [](const plot::CutPoint& point) { return point.at.z() < 0.0; });
     if (!cuts || tips.usual.kind == plot::TipKind::point) {
         return;
     }
-    auto look = std::make_shared<plot::HeightField>(
-        plot::finished_by(*result_.path, tips, look_squares, progress_.part(0.5, 0.7)));
+    auto look =
+        std::make_shared<plot::HeightField>(plot::finished_by(*result_.path, tips, look_squares, progress_));
     constexpr double spare = 0.5;
     const double plate =
         settings_.plate > 0.0 ? settings_.plate : spare - static_cast<double>(std::ranges::min(look->z));
@@ -92,21 +160,41 @@ void PlotDerivation::make_look() {
     result_.look = std::move(look);
 }
 
-void PlotDerivation::make_program(const fs::path& folder) {
-    progress_.report(0.7, "Writing the program");
-    const fs::path file = folder / (result_.input.file.stem().string() + ".ngc");
-    write_file(file, plot_program_text(result_, assets_));
-    result_.program = file;
+void PlotDerivation::make_program(const Publish&) {
+    PostedPlot posted = posted_plot(result_, *result_.path, assets_);
+    PlotProgram made;
+    made.name = result_.input.file.stem().string() + ".ngc";
+    made.program = std::make_shared<const program::Program>(std::move(posted.released.program));
+    made.listing = std::make_shared<const program::Listing>(std::move(posted.released.listing));
+    result_.program = std::make_shared<const PlotProgram>(std::move(made));
+    result_.opened = nullptr;
 }
 
-void PlotDerivation::time_as_drawn() {
+void PlotDerivation::make_motion(const Publish& publish) {
+    OpenedProgram now;
+    now.file = result_.program->name;
+    now.choice.machine = settings_.machine;
+    const auto show = [&] {
+        progress_.check();
+        ++now.revision;
+        result_.opened = std::make_shared<const OpenedProgram>(now);
+        publish();
+    };
+    now.text = std::make_shared<const ProgramText>(result_.program->listing, progress_.part(0.0, 0.1));
+    ProgramReading(now, result_.input.file.parent_path(), assets_, show).read(progress_.part(0.1, 1.0));
+    now.finished = true;
+    ++now.revision;
+    result_.opened = std::make_shared<const OpenedProgram>(std::move(now));
+}
+
+void PlotDerivation::time_as_drawn(const Publish&) {
     if (as_drawn_.empty() || result_.cut_as_drawn) {
         return;
     }
     auto failure = failure_of([&] {
         const PostedPlot posted = posted_plot(result_, as_drawn_, assets_);
-        result_.drawn_seconds = seconds_of_text(
-            posted.released, posted.format, posted.machine, posted.file, progress_.part(0.8, 1.0));
+        result_.drawn_seconds =
+            seconds_of_text(posted.released, posted.format, posted.machine, posted.file, progress_);
     });
     if (failure) {
         failure->message = "the time as drawn cannot be computed: " + failure->message;
@@ -115,16 +203,16 @@ void PlotDerivation::time_as_drawn() {
 }
 
 void PlotDerivation::cut_drawing() {
-    plot::HpglSettings reading = settings_.hpgl;
+    hpgl::HpglSettings reading = settings_.hpgl;
     const bool carved = project::is_carved(result_.input);
     if (carved) { // whole outlines
-        reading.fill = reading.fill == plot::FillMode::hatched ? plot::FillMode::outline : reading.fill;
+        reading.fill = reading.fill == hpgl::FillMode::hatched ? hpgl::FillMode::outline : reading.fill;
         reading.dashes = false;
         reading.arc_tolerance =
             reading.arc_tolerance.value_or(plot::carving_chords(settings_.carving_tolerance));
     }
-    const plot::Plot read = plot::read_hpgl_file(result_.input.file, reading);
-    result_.notices = plot::notices(read, result_.input.file);
+    const hpgl::Plot read = hpgl::read_hpgl_file(result_.input.file, reading);
+    result_.notices = hpgl::notices(read, result_.input.file);
     if (carved) {
         return carve_strokes(read.strokes);
     }
@@ -178,7 +266,7 @@ void PlotDerivation::cut_points() {
 void PlotDerivation::cut_picture() {
     plot::PictureSettings reading = settings_.picture;
     reading.ground = settings_.use == project::PictureUse::relief ? plot::relief_top : plot::white;
-    plot::ReadPicture read = plot::read_picture_file(result_.input.file, reading, progress_.part(0.0, 0.2));
+    plot::ReadPicture read = plot::read_picture_file(result_.input.file, reading, progress_.part(0.0, 0.4));
     result_.notices = std::move(read.notices);
     const plot::Picture& picture = read.picture;
     const double pitch = plot::pixel_pitch(settings_.size, picture);
@@ -224,7 +312,7 @@ void PlotDerivation::carve_strokes(const plot::Strokes& drawn) {
                                           .cutting = settings_.level.cutting,
                                           .plunging = settings_.level.plunging,
                                           .safe_height = settings_.safe_height},
-                                         progress_.part(0.2, 0.5));
+                                         progress_.part(0.4, 1.0));
     for (Diagnostic& notice : made.notices) {
         note(std::move(notice));
     }
@@ -238,7 +326,7 @@ void PlotDerivation::show_picture(const plot::PictureSettings& reading, double p
     plot::PictureSettings whole = reading;
     whole.region.reset();
     whole.most_pixels = 1 << 16;
-    plot::FilePixels read = plot::read_file_pixels(result_.input.file, whole, progress_.part(0.15, 0.2));
+    plot::FilePixels read = plot::read_file_pixels(result_.input.file, whole, progress_.part(0.3, 0.4));
     auto shown = std::make_shared<ShownPicture>();
     shown->picture = std::move(read.picture);
     const int side = shown->picture.file_pixels;
@@ -275,7 +363,7 @@ void PlotDerivation::cut_relief(const plot::Picture& picture, double pitch) {
                     result_.input.file,
                     "try Invert under Picture");
     }
-    use(plot::relief_path(field, plan, progress_.part(0.2, 0.5)));
+    use(plot::relief_path(field, plan, progress_.part(0.4, 1.0)));
 }
 
 plot::CutSettings PlotDerivation::cut_of(std::vector<plot::Level> levels) const {
@@ -317,7 +405,7 @@ plot::Strokes PlotDerivation::plan_strokes(const plot::Strokes& as_drawn, const 
     }
     if (settings_.strokes.order) {
         shaped.strokes = plot::ordered(
-            shaped.strokes, cut_of(levels_of(shaped.strokes)), Vec2::Zero(), end, progress_.part(0.2, 0.4));
+            shaped.strokes, cut_of(levels_of(shaped.strokes)), Vec2::Zero(), end, progress_.part(0.4, 0.8));
     }
     return plot::linked(shaped.strokes, drawn, plan);
 }

@@ -1,24 +1,14 @@
 #include "core/plan/plot_work.h"
 
-#include "core/base/files.h"
+#include "core/base/published.h"
 #include "core/plan/internal/background.h"
-#include "core/plan/internal/failure.h"
 #include "core/plan/internal/plot_derivation.h"
-#include "core/plan/internal/posted_plot.h"
 
-#include <cstdlib>
-#include <mutex>
-#include <system_error>
 #include <utility>
 
 namespace millwright::plan {
 
 namespace fs = std::filesystem;
-
-std::string plot_program_text(const PlotResult& result, const fs::path& assets) {
-    expects(result.path != nullptr, "there is a path to write");
-    return posted_plot(result, *result.path, assets).released.listing.text;
-}
 
 class PlotWorker::Worker {
 public:
@@ -26,14 +16,7 @@ public:
         : assets_(std::move(assets)), wake_(std::move(wake)), background_(wake_) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
-    ~Worker() {
-        background_.clear();
-        background_.wait_idle();
-        std::error_code ignored;
-        if (!folder_.empty()) {
-            fs::remove_all(folder_, ignored);
-        }
-    }
+    ~Worker() = default;
 
     void request(PlotResult start) {
         background_.replace(
@@ -42,87 +25,50 @@ public:
     void request_program() {
         background_.append([this](const Progress& progress) { derive_program(progress); });
     }
-    void cancel() { background_.clear(); }
-
-    [[nodiscard]] std::shared_ptr<const PlotResult> latest() const {
-        const std::scoped_lock lock(mutex_);
-        return latest_;
+    void cancel() {
+        background_.replace([this](const Progress& progress) { end_reading(progress); });
     }
+
+    [[nodiscard]] std::shared_ptr<const PlotResult> latest() const { return published_.latest(); }
     [[nodiscard]] Activity activity() const { return background_.activity(); }
     void wait_idle() const { background_.wait_idle(); }
 
 private:
-    void publish(const PlotResult& now) {
-        auto copy = std::make_shared<PlotResult>(now);
-        {
-            const std::scoped_lock lock(mutex_);
-            copy->revision = ++revision_;
-            latest_ = std::move(copy);
-        }
+    void publish(const PlotResult& now, const Progress& progress) {
+        published_.publish(now, progress);
         wake_();
     }
 
-    /// For the programs of this worker alone.
-    void make_folder() {
-        if (!folder_.empty()) {
-            return;
-        }
-        std::error_code failure;
-        std::string place = (fs::temp_directory_path(failure) / "millwright-plot-XXXXXX").string();
-        if (failure || ::mkdtemp(place.data()) == nullptr) {
-            throw Error("cannot create a folder for the program", place);
-        }
-        folder_ = place;
-    }
-
     void derive(PlotResult& now, const Progress& progress) {
-        progress.report(0.0, "Cutting " + now.input.file.filename().string());
-        PlotDerivation derivation(now, assets_, progress);
-        now.failure = failure_of([&] {
-            derivation.make_path();
-            publish(now);
-            progress.check();
-            derivation.make_look();
-            derivation.check_speeds();
-            publish(now);
-            progress.check();
-            if (derivation.wants_program()) {
-                make_folder();
-                derivation.make_program(folder_);
-                derivation.time_as_drawn();
-            } else {
-                now.program.clear();
-            }
-        });
-        if (now.failure) {
-            now.program.clear();
-        }
-        progress.check(); // no longer needed: what is there stays
-        now.finished = true;
-        publish(now);
+        PlotDerivation(now, assets_, progress).run([&] { publish(now, progress); });
     }
 
     void derive_program(const Progress& progress) {
         const auto before = latest();
-        if (!before || !before->finished || before->failure || !before->program.empty()) {
+        if (!before || !before->finished || before->failure || before->program) {
             return;
         }
         PlotResult now = *before;
-        PlotDerivation derivation(now, assets_, progress);
-        now.failure = failure_of([&] {
-            make_folder();
-            derivation.make_program(folder_);
-        });
-        progress.check();
-        publish(now);
+        PlotDerivation(now, assets_, progress).run_program([&] { publish(now, progress); });
+    }
+
+    /// A program whose motion was given up says so.
+    void end_reading(const Progress& progress) {
+        const auto before = latest();
+        if (!before || !before->opened || before->opened->finished) {
+            return;
+        }
+        PlotResult now = *before;
+        auto opened = std::make_shared<OpenedProgram>(*before->opened);
+        opened->cancelled = true;
+        opened->finished = true;
+        now.opened = std::move(opened);
+        publish(now, progress);
     }
 
     fs::path assets_;
-    fs::path folder_; ///< of the worker's thread; empty before its first program
     std::function<void()> wake_;
-    mutable std::mutex mutex_; ///< guards what follows
-    std::shared_ptr<const PlotResult> latest_;
-    std::uint64_t revision_ = 0;
+    Published<PlotResult> published_;
     Background background_; // last: its thread ends before the rest goes
 };
 
@@ -136,6 +82,7 @@ void PlotWorker::request(const project::PlotInput& input) {
     start.input = input;
     if (const auto before = latest(); before && before->input.file == input.file) {
         start.program = before->program; // can be played until the new one is there
+        start.opened = before->opened && before->opened->finished ? before->opened : nullptr;
     }
     worker_->request(std::move(start));
 }

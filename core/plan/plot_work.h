@@ -1,15 +1,18 @@
-// What comes of a plot or a picture that is to be cut, derived in the background. Lengths mm, angles rad,
-// speeds mm/s.
+// What comes of a plot or a picture that is to be cut, derived in the background: its path, how the work
+// looks, its program, and how that moves the machine. Lengths mm, angles rad, speeds mm/s.
 #pragma once
 
 #include "core/base/error.h"
 #include "core/gcode/preview_path.h"
+#include "core/plan/opened_program.h"
 #include "core/plan/pipeline.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/height_field.h"
 #include "core/plot/picture/png_writer.h"
 #include "core/plot/point_file.h"
 #include "core/plot/work_time.h"
+#include "core/program/listing.h"
+#include "core/program/program.h"
 #include "core/project/plot_input.h"
 
 #include <cstdint>
@@ -36,6 +39,13 @@ struct ShownPicture {
 
     /// 0 to 255, as the thesis of 2006 has G(i,j): row i from the top, column j from the left.
     [[nodiscard]] int gray(int i, int j) const { return picture.at(i, j) / 257; }
+};
+
+/// Posted for the machine and the control of the settings, and read back.
+struct PlotProgram {
+    std::string name; ///< "sign.ngc": of the file that it would be
+    std::shared_ptr<const program::Program> program;
+    std::shared_ptr<const program::Listing> listing; ///< of that program
 };
 
 /// Everything known of an opened plot at one moment. Immutable once published; parts that are not there yet
@@ -67,11 +77,12 @@ struct PlotResult {
     /// millimetre more than the cut.
     std::shared_ptr<const plot::HeightField> look;
     plot::GrayImage light;
-    std::filesystem::path program; ///< file of its G-code, as long as the worker lives; empty: none
-    bool finished = false;
-    std::uint64_t revision = 0;                 ///< grows with every publication
-    std::optional<plot::CarvingFigures> carved; ///< of a V-carving
-    bool cut_as_drawn = false;                  ///< filling, order and links change nothing
+    std::shared_ptr<const PlotProgram> program;  ///< null: none
+    std::shared_ptr<const OpenedProgram> opened; ///< that program, and how it moves the machine
+    bool finished = false;                       ///< all but how the program moves the machine
+    std::uint64_t revision = 0;                  ///< grows with every publication
+    std::optional<plot::CarvingFigures> carved;  ///< of a V-carving
+    bool cut_as_drawn = false;                   ///< filling, order and links change nothing
     /// By the planner, as drawn, s; nullopt where it is cut as drawn, where that cannot be run, or where
     /// there is no automatic program.
     std::optional<double> drawn_seconds;
@@ -110,8 +121,5 @@ private:
     class Worker;
     std::unique_ptr<Worker> worker_;
 };
-
-/// The program of a path, posted and read back. Throws Error.
-[[nodiscard]] std::string plot_program_text(const PlotResult& result, const std::filesystem::path& assets);
 
 } // namespace millwright::plan

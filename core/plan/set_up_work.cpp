@@ -1,9 +1,9 @@
 #include "core/plan/set_up_work.h"
 
+#include "core/base/published.h"
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/failure.h"
 
-#include <mutex>
 #include <utility>
 
 namespace millwright::plan {
@@ -29,27 +29,18 @@ public:
     }
     void cancel() { background_.clear(); }
 
-    [[nodiscard]] std::shared_ptr<const SetUpResult> latest() const {
-        const std::scoped_lock lock(mutex_);
-        return latest_;
-    }
+    [[nodiscard]] std::shared_ptr<const SetUpResult> latest() const { return published_.latest(); }
     [[nodiscard]] Activity activity() const { return background_.activity(); }
     void wait_idle() const { background_.wait_idle(); }
 
 private:
     void publish(SetUpResult found) {
-        {
-            const std::scoped_lock lock(mutex_);
-            found.revision = ++revision_;
-            latest_ = std::make_shared<const SetUpResult>(std::move(found));
-        }
+        published_.publish(std::move(found));
         wake_();
     }
 
     std::function<void()> wake_;
-    mutable std::mutex mutex_; ///< guards what follows
-    std::shared_ptr<const SetUpResult> latest_;
-    std::uint64_t revision_ = 0;
+    Published<SetUpResult> published_;
     Background background_; // last: its thread ends before the rest goes
 };
 

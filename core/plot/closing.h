@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/plot/stroke_plan.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 namespace millwright::plot {
 

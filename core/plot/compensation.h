@@ -4,8 +4,8 @@
 // diameter, outside where the outer size of the part matters, inside where that of a hole does.
 #pragma once
 
-#include "core/plot/region.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/region.h"
+#include "core/plot_strokes/strokes.h"
 
 namespace millwright::plot {
 

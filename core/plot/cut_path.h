@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/plot/compensation.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <optional>
 #include <vector>

@@ -3,7 +3,7 @@
 // constant-velocity control of an XYZ table, ch. 3, eqs 3-1 to 3-7.
 #pragma once
 
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <cstdint>
 #include <optional>

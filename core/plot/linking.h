@@ -2,8 +2,8 @@
 // Source: KMITL master's thesis 2006, forming software for wood and plastic, gap analysis.
 #pragma once
 
-#include "core/plot/region.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/region.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <vector>
 

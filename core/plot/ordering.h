@@ -3,7 +3,7 @@
 
 #include "core/base/progress.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 namespace millwright::plot {
 

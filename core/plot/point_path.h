@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/plot/cut_path.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <vector>
 

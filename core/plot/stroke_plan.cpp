@@ -4,9 +4,9 @@
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/plot/closing.h"
-#include "core/plot/hatching.h"
 #include "core/plot/linking.h"
 #include "core/plot/ordering.h"
+#include "core/plot_strokes/hatching.h"
 
 #include <fmt/format.h>
 

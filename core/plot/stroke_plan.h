@@ -5,7 +5,7 @@
 #include "core/base/progress.h"
 #include "core/plot/compensation.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <cstddef>
 #include <map>

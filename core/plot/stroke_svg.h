@@ -1,7 +1,7 @@
 // Strokes as a picture that browsers and drawing programs show. Lengths mm.
 #pragma once
 
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <string>
 

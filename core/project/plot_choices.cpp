@@ -6,11 +6,11 @@ namespace millwright::project {
 
 namespace {
 
+using hpgl::FillMode;
+using hpgl::LineEnds;
 using plot::Corners;
 using plot::CutterSide;
-using plot::FillMode;
 using plot::GrayRule;
-using plot::LineEnds;
 using plot::TipKind;
 using plot::TurnPolicy;
 

@@ -12,8 +12,8 @@ namespace millwright::project {
 [[nodiscard]] std::span<const Choice<plot::TipKind>> tip_kinds();
 [[nodiscard]] std::span<const Choice<plot::CutterSide>> cutter_sides();
 [[nodiscard]] std::span<const Choice<plot::Corners>> corner_kinds();
-[[nodiscard]] std::span<const Choice<plot::FillMode>> fill_modes();
-[[nodiscard]] std::span<const Choice<plot::LineEnds>> line_ends();
+[[nodiscard]] std::span<const Choice<hpgl::FillMode>> fill_modes();
+[[nodiscard]] std::span<const Choice<hpgl::LineEnds>> line_ends();
 [[nodiscard]] std::span<const Choice<plot::TurnPolicy>> turn_policies();
 
 } // namespace millwright::project

@@ -2,9 +2,9 @@
 // core: lengths mm, angles rad, speeds mm/s; plot_settings.h turns them into people's.
 #pragma once
 
+#include "core/hpgl/hpgl_settings.h"
 #include "core/plot/carving/v_carving.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/hpgl/hpgl_settings.h"
 #include "core/plot/material_table.h"
 #include "core/plot/picture/engraving.h"
 #include "core/plot/picture/picture.h"
@@ -33,7 +33,7 @@ enum class DrawingUse { strokes, carving };
 inline constexpr double usual_spindle_rpm = 10'000.0;
 
 struct PlotSettings {
-    plot::HpglSettings hpgl = {};
+    hpgl::HpglSettings hpgl = {};
     PictureUse use = PictureUse::relief;
     DrawingUse drawing_use = DrawingUse::strokes;
     plot::PictureSettings picture = {};

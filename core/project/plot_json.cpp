@@ -44,20 +44,20 @@ std::vector<plot::Level> levels_of(const JsonValue& value) {
     return levels;
 }
 
-void read_hpgl(const JsonValue& from, plot::HpglSettings& to) {
+void read_hpgl(const JsonValue& from, hpgl::HpglSettings& to) {
     read_choice(from, "fill", fill_modes(), to.fill);
     read_choice(from, "line_ends", line_ends(), to.line_ends);
     read_flag(from, "dashes", to.dashes);
-    bool strict = to.strictness == plot::Strictness::strict;
+    bool strict = to.strictness == hpgl::Strictness::strict;
     read_flag(from, "strict", strict);
-    to.strictness = strict ? plot::Strictness::strict : plot::Strictness::tolerant;
+    to.strictness = strict ? hpgl::Strictness::strict : hpgl::Strictness::tolerant;
 }
 
-void add_hpgl(Json& json, const plot::HpglSettings& hpgl) {
+void add_hpgl(Json& json, const hpgl::HpglSettings& hpgl) {
     json["fill"] = row_of(fill_modes(), hpgl.fill).id;
     json["line_ends"] = row_of(line_ends(), hpgl.line_ends).id;
     json["dashes"] = hpgl.dashes;
-    json["strict"] = hpgl.strictness == plot::Strictness::strict;
+    json["strict"] = hpgl.strictness == hpgl::Strictness::strict;
 }
 
 void read_name(const JsonValue& from, std::string_view key, std::string& to) {

@@ -8,15 +8,15 @@ namespace millwright::project {
 
 namespace {
 
+using hpgl::HpglSettings;
+using hpgl::PlotterUnit;
 using internal::As;
 using internal::count;
 using internal::maybe;
 using internal::number;
-using plot::HpglSettings;
 using plot::PictureSettings;
 using plot::PictureSize;
 using plot::PixelRegion;
-using plot::PlotterUnit;
 using plot::StrokePlan;
 using plot::Tabs;
 using plot::ToolTip;

@@ -80,6 +80,8 @@ struct TriedWith {
     std::string_view module, later;
 };
 constexpr std::array tried_with = {
+    TriedWith{"millwright::plot", "millwright::hpgl"}, // plots that are read
+    TriedWith{"millwright::emulators", "millwright::hpgl"},
     TriedWith{"millwright::motion", "millwright::gcode_programs"}, // programs that are read
     TriedWith{"millwright::drivers", "millwright::jobs"},          // what they are sent
     TriedWith{"millwright::drivers", "millwright::emulators"},

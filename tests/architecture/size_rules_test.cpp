@@ -120,7 +120,7 @@ constexpr std::array many_flags = {
     Larger{"core/emulators/grbl/internal/emulated_controller.h", "EmulatedController", 11},
     Larger{"core/gcode/modal_state.h", "ModalState", 11},
     Larger{"core/plan/plan.h", "Scope", 6},
-    Larger{"core/plot/hpgl/internal/pen.h", "Pen", 6},
+    Larger{"core/hpgl/internal/pen.h", "Pen", 6},
     Larger{"core/pmac/driver/internal/pmac_session.h", "PmacSession", 26},
     Larger{"core/pmac/emulator/internal/motor.h", "Motor", 12},
     Larger{"ui/actions/manual_settings.h", "ManualSettings", 7},
@@ -130,7 +130,6 @@ constexpr std::array many_flags = {
 };
 
 constexpr std::array large_modules = {
-    Larger{"core/plot", "", 13900},
     Larger{"ui/actions", "", 12800},
     Larger{"ui/panels", "", 18000},
 };

@@ -1,7 +1,7 @@
 // Any bytes are a plot file: they give finite strokes within the budget and diagnostics with a byte; never a
 // crash, a hang or a NaN.
 #include "core/base/error.h"
-#include "core/plot/hpgl/reader.h"
+#include "core/hpgl/reader.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,13 +10,13 @@
 namespace {
 
 using namespace millwright;       // NOLINT(google-build-using-namespace)
-using namespace millwright::plot; // NOLINT(google-build-using-namespace)
+using namespace millwright::hpgl; // NOLINT(google-build-using-namespace)
 
 void read(std::string_view bytes, const HpglSettings& settings) {
     try {
         const Plot plot = read_hpgl(bytes, "fuzz.plt", settings);
         std::int64_t points = 0;
-        for (const Stroke& stroke : plot.strokes) {
+        for (const plot::Stroke& stroke : plot.strokes) {
             expects(!stroke.points.empty(), "a stroke has a point");
             points += std::ssize(stroke.points);
             for (const Vec2& point : stroke.points) {

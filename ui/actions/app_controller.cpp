@@ -104,6 +104,7 @@ FrameState AppController::look() const {
             : set_up_->activity().busy ? set_up_->activity()
                                        : pipeline_->activity(),
             reader_->latest(),
+            view_state_.workspace == Workspace::plot ? plot_->opened() : reader_->latest(),
             jobs_->view(),
             approach_->answer(),
             connection_->view(),
@@ -143,7 +144,7 @@ void AppController::follow_project() {
     if (!(plot_->input() == plot)) {
         writes_plot_.reset();
         if (plot_->file() != plot.file) { // another one begins at its beginning
-            (view_state_.file.plays_file ? view_state_.playback : view_state_.file.parked) = {};
+            rewind(Played::plot);
         }
         guarded([&] { plot_->follow(plot); });
     }

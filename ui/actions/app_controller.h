@@ -236,7 +236,8 @@ private:
     void open_plot(const std::filesystem::path& file);
     void follow_import();
     void follow_plot();
-    void give_place_back();
+    /// Starts the program from its beginning, whether it is looked at or not.
+    void rewind(Played program);
     void finish_writing_plot();
     void remember(const std::filesystem::path& file);
     [[nodiscard]] std::filesystem::path colors_file() const;
@@ -295,15 +296,12 @@ private:
     std::optional<bool> writes_plot_;          ///< its program is awaited: and goes to the machine
     /// The view was fitted to it.
     std::weak_ptr<const project::ImportSource> fitted_import_{};
-    std::uint64_t followed_import_ = 0; ///< revision whose failure was reported
-    std::uint64_t followed_plot_ = 0;   ///< revision of the plot whose program was opened
-    bool arm_failed_ = false;           ///< the arm that ships could not be read
-    std::optional<int> settings_sent_;  ///< the card's answer to them is still to be reported
-    bool tells_of_file_ = false;        ///< it is being read: how that ended is still to be reported
-    bool follows_job_ = false;          ///< a job was running when it was last looked at
-    std::filesystem::path gcode_;       ///< opened by a person; empty: none
-    StartAt gcode_begin_;               ///< of its job, while the plot's program has its place
-    bool plot_plays_ = false;           ///< the program of the plot has its place
+    std::uint64_t followed_import_ = 0;                      ///< revision whose failure was reported
+    std::shared_ptr<const plan::PlotProgram> followed_plot_; ///< the plot's program as it was last seen
+    bool arm_failed_ = false;                                ///< the arm that ships could not be read
+    std::optional<int> settings_sent_; ///< the card's answer to them is still to be reported
+    bool tells_of_file_ = false;       ///< it is being read: how that ended is still to be reported
+    bool follows_job_ = false;         ///< a job was running when it was last looked at
 };
 
 } // namespace millwright::actions

@@ -113,15 +113,12 @@ void AppController::open_gcode(const fs::path& file) {
     }
     reader_->open(file, view_state_.file.reading, options_.assets);
     jobs_->forget_failure();
-    gcode_ = file;
-    plot_plays_ = false;
-    followed_plot_ = 0;
     view_state_.workspace = Workspace::program;
     view_state_.file_prompt = FilePrompt::none;
     fit_program(view_state_);
-    view_state_.file.step.reset();
     view_state_.start_at = {};
     follow_file();
+    view_state_.file.step.reset();
     view_state_.playback = {};
     tells_of_file_ = true;
     remember(file);
@@ -129,23 +126,16 @@ void AppController::open_gcode(const fs::path& file) {
 
 void AppController::read_again() {
     if (const auto opened = reader_->latest()) {
-        const bool of_plot = plot_plays_;
         open_gcode(fs::path(opened->file));
-        if (of_plot) {
-            gcode_.clear(); // it goes with the plot
-        }
     }
 }
 
 void AppController::close_file() {
     reader_->close();
     jobs_->forget_failure();
-    gcode_.clear();
-    plot_plays_ = false;
-    followed_plot_ = 0;
-    view_state_.file.step.reset();
     fit_program(view_state_);
     follow_file();
+    rewind(Played::file);
 }
 
 void AppController::cancel_work() {
@@ -169,13 +159,29 @@ void AppController::cancel_work() {
     writes_plot_.reset();
 }
 
-/// The file's motion and the project's each keep their time; and what is wrong with the file is reported
-/// once.
+void AppController::rewind(Played program) {
+    FileView& file = view_state_.file;
+    if (file.played == program) {
+        view_state_.playback = {};
+        file.step.reset();
+    } else {
+        file.parked[static_cast<std::size_t>(program)] = {};
+    }
+}
+
+/// The motions of the file, the plot and the project each keep their time; and what is wrong with the file is
+/// reported once.
 void AppController::follow_file() {
-    if (const bool in_file = look().in_file(); in_file != view_state_.file.plays_file) {
+    const Played played = view_state_.workspace == Workspace::plot ? Played::plot
+                          : look().in_file()                       ? Played::file
+                                                                   : Played::project;
+    if (FileView& file = view_state_.file; played != file.played) {
         view_state_.playback.playing = false;
-        std::swap(view_state_.playback, view_state_.file.parked);
-        view_state_.file.plays_file = in_file;
+        file.parked[static_cast<std::size_t>(file.played)] = {view_state_.playback, file.step};
+        const ParkedPlayback& before = file.parked[static_cast<std::size_t>(played)];
+        view_state_.playback = before.playback;
+        file.step = before.step;
+        file.played = played;
     }
     const auto opened = reader_->latest();
     if (!tells_of_file_ || !opened || !opened->finished) {

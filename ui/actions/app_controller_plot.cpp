@@ -106,39 +106,22 @@ void AppController::open_plot(const fs::path& file) {
     remember(file);
 }
 
-/// The program that was made of the plot takes the place of an opened one, while one looks at the plot.
+/// Another program of the plot stands where the one before it stood, in time, and does not play on.
 void AppController::follow_plot() {
     guarded([&] { finish_writing_plot(); });
-    if (view_state_.workspace != Workspace::plot) {
-        return give_place_back();
-    }
     const auto made = plot_->latest();
-    if (!made || !made->finished || made->program.empty() || made->revision == followed_plot_ ||
-        jobs_->view().running) {
+    const auto program = made ? made->program : nullptr;
+    if (program == followed_plot_) {
         return;
     }
-    followed_plot_ = made->revision;
-    plan::ReadingChoice reading;
-    reading.machine = made->input.settings.machine;
-    guarded([&] { reader_->open(made->program, reading, options_.assets); });
-    view_state_.file.step.reset();
-    const StartAt begin = std::exchange(view_state_.start_at, {});
-    gcode_begin_ = std::exchange(plot_plays_, true) ? gcode_begin_ : begin;
-    view_state_.playback.playing = false;
-    tells_of_file_ = false;
-}
-
-/// To the program that a person had opened, if any.
-void AppController::give_place_back() {
-    if (!plot_plays_ || gcode_.empty() || jobs_->view().running) {
-        return;
+    followed_plot_ = program;
+    FileView& file = view_state_.file;
+    if (file.played == Played::plot) {
+        file.step.reset();
+        view_state_.playback.playing = false;
+    } else {
+        file.parked[static_cast<std::size_t>(Played::plot)].step.reset();
     }
-    plot_plays_ = false;
-    followed_plot_ = 0;
-    guarded([&] { reader_->open(gcode_, view_state_.file.reading, options_.assets); });
-    view_state_.file.step.reset();
-    view_state_.start_at = std::exchange(gcode_begin_, {});
-    view_state_.playback.playing = false;
 }
 
 void AppController::write_plot(bool to_machine) {
@@ -160,7 +143,7 @@ void AppController::write_plot_points() {
 void AppController::finish_writing_plot() {
     const auto made = plot_->latest();
     if (!writes_plot_ || !made || !made->finished || !plot_->is_current(*made) ||
-        (made->program.empty() && !made->failure)) {
+        (!made->program && !made->failure)) {
         return;
     }
     const bool to_machine = *std::exchange(writes_plot_, std::nullopt);

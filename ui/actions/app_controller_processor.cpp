@@ -37,8 +37,8 @@ void AppController::load_processor(ProcessorSource source) {
     case ProcessorSource::thesis_path:
         return sample("thesis-path.ngc");
     case ProcessorSource::opened_file:
-        if (now.opened) {
-            processor_->load(source, read_file(now.opened->file), now.opened->file.filename());
+        if (now.opened_file) {
+            processor_->load(source, read_file(now.opened_file->file), now.opened_file->file.filename());
         }
         return;
     case ProcessorSource::project:

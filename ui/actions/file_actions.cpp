@@ -31,7 +31,7 @@ Permission has_listing(const FrameState& now) {
 }
 
 Permission can_change_file(const FrameState& now) {
-    if (!now.opened) {
+    if (!now.opened_file) {
         return Permission::refused("No G-code file is open.");
     }
     return now.job.running ? Permission::refused("A job is running.") : Permission{};

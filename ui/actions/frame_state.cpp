@@ -77,12 +77,8 @@ std::shared_ptr<const plan::Evaluation> FrameState::program_path() const {
 }
 
 bool FrameState::in_file() const {
-    if (view_state.workspace == Workspace::plot) { // the program that was made of the plot
-        const auto made = plot.latest();
-        return opened && made && opened->file == made->program;
-    }
-    return opened &&
-           (view_state.workspace == Workspace::program || view_state.workspace == Workspace::machine);
+    return opened && (view_state.workspace == Workspace::program ||
+                      view_state.workspace == Workspace::machine || view_state.workspace == Workspace::plot);
 }
 
 double FrameState::duration() const {

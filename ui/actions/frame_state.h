@@ -43,7 +43,10 @@ struct FrameState {
     std::shared_ptr<const plan::PublishedPlan> plan;        ///< null before the first
     std::shared_ptr<const plan::WatchedAdaptation> watched; ///< null while none is watched
     plan::Activity activity;                                ///< of whatever works in the background
-    std::shared_ptr<const plan::OpenedProgram> opened;      ///< a G-code file; null while none is open
+    std::shared_ptr<const plan::OpenedProgram> opened_file; ///< a G-code file; null while none is open
+    /// The program that is looked at line by line: of the plot in its workspace, elsewhere `opened_file`.
+    /// Null while there is none.
+    std::shared_ptr<const plan::OpenedProgram> opened;
     JobView job;
     std::shared_ptr<const Approach> approach; ///< of ViewState::begin; null while it is not worked out
     ConnectionView connection;
@@ -75,11 +78,11 @@ struct FrameState {
     [[nodiscard]] bool arm_connected() const {
         return connection.connected() && connection.row().kind == machine::MachineKind::arm;
     }
-    /// The opened file is what is shown and moved, not the project's own program.
+    /// `opened` is what is shown and moved, not the project's own program.
     [[nodiscard]] bool in_file() const;
     /// Of the motion that is shown, s; 0 without one.
     [[nodiscard]] double duration() const;
-    /// In the opened file; nothing unless in_file() and the file is read.
+    /// In `opened`; nothing unless in_file() and it is read.
     [[nodiscard]] std::optional<FilePlace> file_place() const;
 
     /// Of the part on the table that is marked: chosen on the map, else the best. Zero without a search.

@@ -58,7 +58,7 @@ std::string listed(std::string_view letters) {
 jobs::Job file_job(const JobSource& source) {
     const plan::OpenedProgram& opened = *source.opened;
     if (source.as_text) {
-        return jobs::text_job(std::string(opened.text->bytes.text()), opened.file);
+        return jobs::text_job(std::string(opened.text->text()), opened.file);
     }
     jobs::Job job;
     job.machine = source.machine;

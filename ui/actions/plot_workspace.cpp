@@ -58,6 +58,11 @@ std::shared_ptr<const plan::PlotResult> PlotWorkspace::latest() const {
     return made && made->input.file == input_.file ? made : nullptr;
 }
 
+std::shared_ptr<const plan::OpenedProgram> PlotWorkspace::opened() const {
+    const auto made = latest();
+    return made ? made->opened : nullptr;
+}
+
 std::vector<plot::Level> PlotWorkspace::levels() const {
     if (!settings().levels.empty()) {
         return settings().levels;
@@ -139,9 +144,9 @@ fs::path PlotWorkspace::write_points(const fs::path& folder) const {
 
 fs::path PlotWorkspace::write_program(const fs::path& folder) const {
     const auto now = latest();
-    expects(now != nullptr && !now->program.empty(), "there is a program to be written");
+    expects(now != nullptr && now->program != nullptr, "there is a program to be written");
     const fs::path target = free_place(folder, file().stem().string(), "ngc");
-    write_file(target, read_file(now->program));
+    write_file(target, now->program->listing->text);
     return target;
 }
 

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] const project::PlotSettings& settings() const { return input_.settings; }
     /// Of the file that is open, perhaps with settings that were before; null while there is nothing of it.
     [[nodiscard]] std::shared_ptr<const plan::PlotResult> latest() const;
+    /// The program of the file and how it moves the machine; null while there is none.
+    [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() const;
     /// Whether `made` is what the file makes now with the settings of now.
     [[nodiscard]] bool is_current(const plan::PlotResult& made) const {
         return made.revision > before_ && made.input == input_;
@@ -69,7 +71,7 @@ public:
     [[nodiscard]] std::optional<Vec3> table_tip(double timeline_s) const;
     /// Of a path that is too long to get its program automatically.
     void make_program() { worker_.request_program(); }
-    /// Copies the program into `folder` under a name that is not taken, and gives the name. Throws Error.
+    /// Writes the program into `folder` under a name that is not taken, and gives the name. Throws Error.
     [[nodiscard]] std::filesystem::path write_program(const std::filesystem::path& folder) const;
     /// The path as a file that can be opened again, in the same way.
     [[nodiscard]] std::filesystem::path write_path(const std::filesystem::path& folder) const;

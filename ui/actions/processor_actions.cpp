@@ -33,7 +33,7 @@ Permission runs(const FrameState& now) {
 }
 
 Permission has_gcode_file(const FrameState& now) {
-    return now.opened ? Permission{} : Permission::refused("Open a G-code file first.");
+    return now.opened_file ? Permission{} : Permission::refused("Open a G-code file first.");
 }
 
 Permission has_program(const FrameState& now) {

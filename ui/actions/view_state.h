@@ -75,12 +75,21 @@ struct Playback {
     double speed = 1.0; ///< times real time
 };
 
-/// An opened G-code file as a person looks at it.
+/// Whose program is played: each keeps its place while another one is looked at.
+enum class Played { project, file, plot };
+
+/// Where a program stands that is not looked at.
+struct ParkedPlayback {
+    Playback playback;
+    std::optional<gcode::Step> step; ///< of FileView
+};
+
+/// An opened G-code file, or the program of a plot, as a person looks at it.
 struct FileView {
-    plan::ReadingChoice reading;     ///< for the next file, too
-    Playback parked;                 ///< where the other motion stands: the file's, or the project's
-    bool plays_file = false;         ///< whose motion ViewState::playback is
-    std::optional<gcode::Step> step; ///< chosen by hand; nothing: that of the motion
+    plan::ReadingChoice reading;          ///< for the next file, too
+    Played played = Played::project;      ///< whose motion ViewState::playback is
+    std::array<ParkedPlayback, 3> parked; ///< of the others, by Played
+    std::optional<gcode::Step> step;      ///< chosen by hand; nothing: that of the motion
     int find_next = 0;        ///< 1: the listing, or the editor in sight, goes on to the next hit, -1: back
     bool find_wanted = false; ///< its field takes the keyboard
 };

@@ -47,7 +47,7 @@ void ListingPanel::follow(const FrameState& now) {
     count_.reset();
     lines_ = nullptr;
     if (text && now.in_file()) {
-        lines_ = &now.opened->text->lines;
+        lines_ = &now.opened->text->lines();
     } else if (text) {
         own_ = gcode::LineIndex(now.listing()->text);
         lines_ = &own_;

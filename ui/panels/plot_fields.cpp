@@ -81,9 +81,9 @@ void choice(Ui& ui,
 }
 
 void unit_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
-    const int at = now.hpgl.unit == plot::nominal_unit ? 0 : now.hpgl.unit == plot::table_unit ? 1 : 2;
+    const int at = now.hpgl.unit == hpgl::nominal_unit ? 0 : now.hpgl.unit == hpgl::table_unit ? 1 : 2;
     if (const auto chosen = ui.choice("unit", "Plotter unit", at, units); chosen && *chosen < 2) {
-        const plot::PlotterUnit unit = *chosen == 0 ? plot::nominal_unit : plot::table_unit;
+        const hpgl::PlotterUnit unit = *chosen == 0 ? hpgl::nominal_unit : hpgl::table_unit;
         change_plot_settings(
             ask, "Plotter unit", [unit](PlotSettings& settings) { settings.hpgl.unit = unit; });
     }
@@ -96,7 +96,7 @@ void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
         return;
     }
     numbers(ui, ask, now, {"arc_tolerance_mm"});
-    choice<plot::FillMode>(
+    choice<hpgl::FillMode>(
         ui, ask, "fill", "Filled areas", project::fill_modes(), now.hpgl.fill, [](Project& draft, auto fill) {
             draft.plot.settings.hpgl.fill = fill;
         });
@@ -107,7 +107,7 @@ void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
            now.hpgl.dashes,
            "On: draw dashed line types; off: draw all lines solid",
            [](PlotSettings& s, bool on) { s.hpgl.dashes = on; });
-    choice<plot::LineEnds>(ui,
+    choice<hpgl::LineEnds>(ui,
                            ask,
                            "line_ends",
                            "Line breaks",
@@ -118,10 +118,10 @@ void reading_fields(Ui& ui, ActionQueue& ask, const PlotSettings& now) {
            ask,
            "strict",
            "Strict",
-           now.hpgl.strictness == plot::Strictness::strict,
+           now.hpgl.strictness == hpgl::Strictness::strict,
            "Stop reading at the first error",
            [](PlotSettings& s, bool on) {
-               s.hpgl.strictness = on ? plot::Strictness::strict : plot::Strictness::tolerant;
+               s.hpgl.strictness = on ? hpgl::Strictness::strict : hpgl::Strictness::tolerant;
            });
 }
 

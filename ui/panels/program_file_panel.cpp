@@ -101,7 +101,7 @@ void ProgramFilePanel::draw_file(Ui& ui, const FrameState& now, ActionQueue& ask
     const plan::OpenedProgram& opened = *now.opened;
     ui.value("name", "File", opened.file.filename().string());
     draw_choices(ui, now, ask);
-    ui.value("lines", "Lines", opened.text ? fmt::format("{}", opened.text->lines.count()) : "\u2026");
+    ui.value("lines", "Lines", opened.text ? fmt::format("{}", opened.text->lines().count()) : "\u2026");
     ui.value("moves", "Moves", fmt::format("{}", std::max<std::int64_t>(opened.path.point_count() - 1, 0)));
     const bool known = opened.execution != nullptr;
     ui.value("length", "Tool-tip travel", known ? fixed(opened.length, 1) : "\u2026", known ? "mm" : "");

@@ -27,7 +27,7 @@ void set_begin(ActionQueue& ask, StartAt begin) {
 
 int line_count(const FrameState& now) {
     if (now.in_file()) {
-        return now.opened->text ? static_cast<int>(now.opened->text->lines.count()) : 1;
+        return now.opened->text ? static_cast<int>(now.opened->text->lines().count()) : 1;
     }
     const auto listing = now.listing();
     return listing ? listing->line_count() : 1;

@@ -28,12 +28,12 @@ std::string mouse_text(const std::optional<Vec3>& p) {
              : std::string("mm, deg, mm/min");
 }
 
-/// Of the file that is looked at: a plot that makes no program leaves the one before it opened.
+/// Of the file that is looked at.
 std::string program_name(const FrameState& now) {
     if (now.view_state.workspace == actions::Workspace::plot && !now.plot.file().empty()) {
         return ", " + now.plot.file().filename().string();
     }
-    return now.opened ? ", " + now.opened->file.filename().string() : "";
+    return now.opened_file ? ", " + now.opened_file->file.filename().string() : "";
 }
 
 } // namespace

@@ -105,7 +105,7 @@ void TimelinePanel::draw_file(Ui& ui, const FrameState& now, ActionQueue& ask) {
     view.is_playing = now.view_state.playback.playing;
     view.speed = now.view_state.playback.speed;
     view.block = place->line;
-    view.blocks = now.opened->text->lines.count();
+    view.blocks = now.opened->text->lines().count();
     view.what = "Line";
     if (now.follows_job()) {
         view.permission = widgets::Permission::refused("The view follows the running job.");
@@ -132,12 +132,12 @@ void TimelinePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (now.table_tip() && now.plot.table().playing()) {
         return draw_table_play(ui, now);
     }
+    const bool plot = now.view_state.workspace == actions::Workspace::plot;
+    if (plot && now.job.running && now.job.report) { // no job is of the plot
+        return draw_job(ui, *now.job.report);
+    }
     if (now.in_file()) {
         return draw_file(ui, now, ask);
-    }
-    const bool plot = now.view_state.workspace == actions::Workspace::plot;
-    if (plot && now.job.running && now.job.report) {
-        return draw_job(ui, *now.job.report);
     }
     if (plot) {
         return draw_nothing(ui, now);

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/plot/region.h"
+#include "core/plot_strokes/region.h"
 
 #include <cstddef>
 #include <vector>

@@ -7,7 +7,7 @@
 #include "core/base/progress.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/tool_tip.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <optional>
 #include <vector>

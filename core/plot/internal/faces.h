@@ -1,7 +1,7 @@
 // Which side of closed lines something is on.
 #pragma once
 
-#include "core/plot/region.h"
+#include "core/plot_strokes/region.h"
 
 #include <vector>
 

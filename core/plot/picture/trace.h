@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/plot/picture/picture.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <string>
 #include <vector>

@@ -31,7 +31,7 @@ protected:
 TEST_F(ProgramReaderTest, ReadsTextPathStateAndMotion) {
     const auto opened = read("G21 G90 F600\nG1 X60\nM2\n");
     ASSERT_TRUE(opened && opened->finished && opened->text && opened->execution && opened->motion);
-    EXPECT_EQ(opened->text->lines.count(), 3);
+    EXPECT_EQ(opened->text->lines().count(), 3);
     EXPECT_EQ(opened->path.point_count(), 2);
     EXPECT_NEAR(opened->length, 60.0, 1e-9);
     EXPECT_NEAR(opened->seconds, 6.0, 1e-6);

@@ -44,7 +44,7 @@ TEST(PlotCarving, OfADrawingHasItsFiguresItsColoursAndItsTool) {
     EXPECT_TRUE(made->levels.empty());
     ASSERT_TRUE(made->look);
     EXPECT_NEAR(static_cast<double>(std::ranges::min(made->look->z)), -10.0, 0.4);
-    EXPECT_THAT(plan::plot_program_text(*made, "assets"), HasSubstr("TAPER"));
+    EXPECT_THAT(made->program->listing->text, HasSubstr("TAPER"));
     // In bands of depth, from the top, which have all of the cut between them.
     ASSERT_GT(made->cuts.size(), 4U);
     double length = 0.0;

@@ -1,7 +1,6 @@
 #include "core/plan/plot_work.h"
 
 #include "core/base/error.h"
-#include "core/base/files.h"
 #include "core/kinematics/machine_file.h"
 #include "core/plan/opened_program.h"
 #include "core/plan/plot_time.h"
@@ -15,11 +14,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace millwright::plan {
@@ -79,7 +80,7 @@ std::string seen(const project::PlotInput& input) {
         return to_text(*made->failure);
     }
     std::string text = plot::path_file_text(*made->path) + made->input.settings.post;
-    text += plot_program_text(*made, "assets");
+    text += made->program->listing->text;
     for (const std::uint8_t pixel : made->light.pixels) {
         text += static_cast<char>(pixel);
     }
@@ -268,11 +269,11 @@ TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
         change(changed.settings);
         return seen(changed) != seen(input);
     };
-    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = plot::FillMode::outline; }));
-    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = plot::FillMode::none; }));
+    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = hpgl::FillMode::outline; }));
+    EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.fill = hpgl::FillMode::none; }));
     EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.hpgl.dashes = false; }));
     EXPECT_TRUE(
-        differs(drawing, [](project::PlotSettings& s) { s.hpgl.line_ends = plot::LineEnds::separate; }));
+        differs(drawing, [](project::PlotSettings& s) { s.hpgl.line_ends = hpgl::LineEnds::separate; }));
     EXPECT_TRUE(differs(drawing, [](project::PlotSettings& s) { s.post = "grbl"; }));
     const project::PlotInput outlines = picture_input(project::PictureUse::outlines);
     EXPECT_TRUE(differs(outlines, [](project::PlotSettings& s) { s.picture.invert = true; }));
@@ -293,19 +294,7 @@ TEST(PlotWork, EveryChoiceOfTheSettingsCounts) {
     EXPECT_TRUE(differs(thin, [](project::PlotSettings& s) { s.through = true; }));
     std::ofstream(scratch / "bad.plt") << "SP1;PU0,0;PD400,0;QX;";
     const project::PlotInput bad{scratch / "bad.plt", {}};
-    EXPECT_TRUE(differs(bad, [](project::PlotSettings& s) { s.hpgl.strictness = plot::Strictness::strict; }));
-}
-
-TEST(PlotWork, TheProgramIsThatOfThePathAndGoesWithItsWorker) {
-    fs::path program;
-    {
-        PlotWorker worker("assets", [] {});
-        worker.request({everyday, {}});
-        worker.wait_idle();
-        program = worker.latest()->program;
-        EXPECT_EQ(read_file(program), plot_program_text(*worker.latest(), "assets"));
-    }
-    EXPECT_FALSE(fs::exists(program));
+    EXPECT_TRUE(differs(bad, [](project::PlotSettings& s) { s.hpgl.strictness = hpgl::Strictness::strict; }));
 }
 
 /// Of so many points, back and forth over 100 mm.
@@ -318,6 +307,68 @@ void write_zigzag(const fs::path& file, std::size_t points) {
     out << ";PU0,0;SP;";
 }
 
+/// Where the program goes, blocks that cut and blocks in the air alike.
+std::vector<Vec3> targets_of(const program::Program& program) {
+    std::vector<Vec3> targets;
+    for (const program::Block& block : program.blocks) {
+        if (block.moves()) {
+            targets.emplace_back(block.target[0], block.target[1], block.target[2]);
+        }
+    }
+    return targets;
+}
+
+TEST(PlotWork, TheProgramIsAValueThatIsReadAndPlannedWithoutAFile) {
+    const auto made = derived({everyday, {}}); // its worker is gone
+    ASSERT_TRUE(made->program);
+    EXPECT_EQ(made->program->name, "everyday.ngc");
+    for (const plot::CutPoint& point : *made->path) {
+        const auto near = [&](const Vec3& target) { return (target - point.at).norm() < 1e-3; };
+        EXPECT_TRUE(std::ranges::any_of(targets_of(*made->program->program), near)) << point.at.transpose();
+    }
+    ASSERT_TRUE(made->opened);
+    EXPECT_TRUE(made->opened->finished);
+    EXPECT_EQ(made->opened->file, "everyday.ngc");
+    EXPECT_EQ(made->opened->text->text().data(), made->program->listing->text.data()) << "no copy of it";
+    ASSERT_TRUE(made->opened->motion) << made->opened->no_motion;
+    EXPECT_TRUE(made->opened->findings.empty());
+}
+
+// A machine file beside the drawing, named without a folder.
+TEST(PlotWork, TheMotionIsOfTheMachineThatTheProgramIsFor) {
+    const test::ScratchFolder scratch;
+    fs::copy_file(everyday, scratch / "a.plt");
+    fs::copy_file("assets/machines/router-xyz.json", scratch / "mine.json");
+    project::PlotInput input{scratch / "a.plt", {}};
+    input.settings.machine = "mine.json";
+    const auto made = derived(input);
+    ASSERT_FALSE(made->failure) << to_text(*made->failure);
+    EXPECT_TRUE(made->opened->motion) << to_text(made->opened->faults.front());
+}
+
+TEST(PlotWork, AMotionThatIsGivenUpIsNotStillBeingRead) {
+    const test::ScratchFolder scratch;
+    PlotWorker worker("assets", [] {});
+    constexpr int tries = 20; // the motion may be there before it is cancelled: then once more
+    bool met = false;
+    for (int n = 0; n < tries && !met; ++n) {
+        const fs::path file = scratch / ("long" + std::to_string(n) + ".plt");
+        write_zigzag(file, most_points_at_once / 2);
+        worker.request({file, {}});
+        const auto of_it = [&](const auto& now) { return now && now->input.file == file; };
+        while (worker.activity().busy && !(of_it(worker.latest()) && worker.latest()->opened)) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        worker.cancel();
+        worker.wait_idle();
+        ASSERT_TRUE(worker.latest()->opened);
+        EXPECT_TRUE(worker.latest()->opened->finished);
+        EXPECT_TRUE(worker.latest()->program);
+        met = worker.latest()->opened->cancelled;
+    }
+    EXPECT_TRUE(met);
+}
+
 // The window plans the file, the command line said another time for the same program.
 TEST(PlotWork, TheTimeOfThePlannerIsThatOfTheWrittenTextEverywhere) {
     for (const char* post : {"linuxcnc-xyz", "grbl"}) {
@@ -328,13 +379,10 @@ TEST(PlotWork, TheTimeOfThePlannerIsThatOfTheWrittenTextEverywhere) {
         worker.wait_idle();
         const auto made = worker.latest();
         ASSERT_FALSE(made->failure) << post << to_text(*made->failure);
-        ProgramReader reader([] {});
-        reader.open(made->program, {.machine = input.settings.machine}, "assets");
-        reader.wait_idle();
-        const auto opened = reader.latest();
+        const auto opened = made->opened;
         ASSERT_TRUE(opened->motion) << post << opened->no_motion;
         posts::ReleasedText released;
-        released.listing.text = read_file(made->program);
+        released.listing.text = made->program->listing->text;
         const auto machine =
             kinematics::read_machine(project::machine_path(input.settings.machine, ".", "assets"));
         EXPECT_NEAR(
@@ -357,7 +405,7 @@ TEST(PlotWork, TheTimeAsDrawnIsThatOfItsOwnProgram) {
     worker.request(input);
     worker.wait_idle();
     posts::ReleasedText released;
-    released.listing.text = read_file(worker.latest()->program);
+    released.listing.text = worker.latest()->program->listing->text;
     const auto machine =
         kinematics::read_machine(project::machine_path(input.settings.machine, ".", "assets"));
     EXPECT_NEAR(*ordered->drawn_seconds, seconds_of_text(released, {}, machine, "p.ngc"), 1e-6);
@@ -378,7 +426,7 @@ TEST(PlotWork, APointFileIsCutAndKeepsItsPointsForTheTable) {
         ASSERT_EQ(made->points->read.points.size(), 5U);
         EXPECT_EQ(made->points->read.points[3], Vec3(25.0, 15.0, -1.0));
         EXPECT_NEAR(made->lengths.cut, 16.0, 1e-9); // down and across
-        EXPECT_THAT(plot_program_text(*made, "assets"), HasSubstr("X25.0000"));
+        EXPECT_THAT(made->program->listing->text, HasSubstr("X25.0000"));
         std::ofstream(file, std::ios::app) << "a,b,c\n";
         const auto bad = derived(input);
         ASSERT_TRUE(bad->failure);
@@ -395,18 +443,21 @@ TEST(PlotWork, TheProgramOfALongPathIsWrittenWhereItIsAskedFor) {
     ASSERT_FALSE(worker.latest()->failure);
     EXPECT_TRUE(worker.latest()->finished);
     EXPECT_GT(worker.latest()->path->size(), most_points_at_once);
-    EXPECT_TRUE(worker.latest()->program.empty());
+    EXPECT_FALSE(worker.latest()->program);
+    EXPECT_FALSE(worker.latest()->opened);
     const auto revision = worker.latest()->revision;
 
     worker.request_program();
     worker.wait_idle();
-    ASSERT_FALSE(worker.latest()->program.empty());
+    ASSERT_TRUE(worker.latest()->program);
+    EXPECT_TRUE(worker.latest()->opened->motion);
     EXPECT_GT(worker.latest()->revision, revision);
-    EXPECT_EQ(read_file(worker.latest()->program), plot_program_text(*worker.latest(), "assets"));
+    EXPECT_GT(worker.latest()->program->program->block_count(), std::ssize(*worker.latest()->path) / 2);
 
+    const auto there = worker.latest();
     worker.request_program(); // it is there
     worker.wait_idle();
-    EXPECT_EQ(worker.latest()->revision, revision + 1);
+    EXPECT_EQ(worker.latest(), there);
 }
 
 TEST(PlotWork, TheProgramOfALongPathIsNotWrittenForAPathThatIsGone) {
@@ -420,7 +471,7 @@ TEST(PlotWork, TheProgramOfALongPathIsNotWrittenForAPathThatIsGone) {
     worker.wait_idle();
     ASSERT_FALSE(worker.latest()->failure);
     EXPECT_EQ(worker.latest()->input.file, everyday);
-    EXPECT_EQ(read_file(worker.latest()->program), plot_program_text(*worker.latest(), "assets"));
+    EXPECT_EQ(worker.latest()->program->name, "everyday.ngc");
 }
 
 TEST(PlotWork, WhatCannotBeFollowedIsANotice) {
@@ -445,7 +496,7 @@ TEST(PlotWork, WhatCannotBeCutIsAFailureWithItsReason) {
     const auto made = derived(nowhere);
     EXPECT_THAT(to_text(*made->failure), HasSubstr("no-such-machine"));
     EXPECT_TRUE(made->path); // what there is stays to be looked at
-    EXPECT_TRUE(made->program.empty());
+    EXPECT_FALSE(made->program);
 }
 
 TEST(PlotWork, AProgramThatCutsFromAnUnknownPlaceIsAFailureWithItsLine) {

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/unreachable_regions.h"
-#include "tests/core/plot/circle_ring.h"
+#include "tests/core/plot_strokes/circle_ring.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>

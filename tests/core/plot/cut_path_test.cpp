@@ -1,9 +1,9 @@
 #include "core/plot/cut_path.h"
 
 #include "core/base/error.h"
-#include "core/plot/hpgl/reader.h"
+#include "core/hpgl/reader.h"
 #include "core/plot/path_bound.h"
-#include "tests/core/plot/thesis_drawings.h"
+#include "tests/core/hpgl/thesis_drawings.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ TEST(Levels, OfADrawingOfTwoColoursAreCutWholeInTheirOrder) {
     for (int n = 0; n < 6; ++n) {
         hpgl += "SP" + std::to_string(1 + n % 2) + ";" + test::run({{400 * (1 + n % 2), 40 * n}, {400, 400}});
     }
-    const Strokes strokes = read_hpgl(hpgl, "two.plt").strokes;
+    const Strokes strokes = hpgl::read_hpgl(hpgl, "two.plt").strokes;
     ASSERT_EQ(strokes.size(), 6U);
     for (const int first : {1, 2}) {
         CutSettings settings;
@@ -152,7 +152,7 @@ TEST(Tabs, AreRefusedWhereTheyDoNotFit) {
 }
 
 TEST(Levels, PensOfTheThesisAreTakenAsTheyAreNumbered) {
-    const Plot plot = read_hpgl(test::second_example(), "thesis.plt");
+    const hpgl::Plot plot = hpgl::read_hpgl(test::second_example(), "thesis.plt");
     const std::vector<Level> levels = levels_for(plot.strokes);
     ASSERT_EQ(levels.size(), 2U);
     EXPECT_EQ(levels[0].pen, 0);

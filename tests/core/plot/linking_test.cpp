@@ -2,11 +2,11 @@
 #include "core/plot/linking.h"
 
 #include "core/base/error.h"
-#include "core/plot/hpgl/reader.h"
+#include "core/hpgl/reader.h"
 #include "core/plot/ordering.h"
 #include "core/plot/stroke_plan.h"
 #include "core/plot/work_time.h"
-#include "tests/core/plot/thesis_drawings.h"
+#include "tests/core/hpgl/thesis_drawings.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace millwright::plot {
 namespace {
 
 Strokes strokes_of_hpgl(const std::string& hpgl) {
-    return read_hpgl(hpgl, "thesis.plt").strokes;
+    return hpgl::read_hpgl(hpgl, "thesis.plt").strokes;
 }
 
 Linked linked(const Strokes& strokes, double distance) {
@@ -126,7 +126,7 @@ TEST(GapLinking, ClosedStrokesAreOutlines) {
 // The sign that ships: links of the safe mode are inside of letters, wherever one looks on them. The pen of
 // the letters is 2, that of the frame 1.
 TEST(GapLinking, LinksOfTheSignStayInItsLetters) {
-    const Strokes strokes = read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
+    const Strokes strokes = hpgl::read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
     const std::vector<Ring> outlines = closed_outlines(strokes);
     const Region letters(outlines.begin() + 1, outlines.end());
     const Linked safe = link(strokes, {.distance = 3.0, .outlines = outlines});
@@ -150,7 +150,7 @@ TEST(GapLinking, LinksOfTheSignStayInItsLetters) {
 // The sign of the thesis in Thai, hatched: its distance stays, lifts and time go down. The thesis saved 39.3
 // % of a sign whose sizes are lost.
 TEST(GapLinking, OfTheThaiSignSavesLiftsAndTimeAndKeepsTheDistance) {
-    const Strokes drawn = read_hpgl_file("assets/samples/plot/thesis-sign.plt").strokes;
+    const Strokes drawn = hpgl::read_hpgl_file("assets/samples/plot/thesis-sign.plt").strokes;
     const Vec2 home = Vec2::Zero();
     const WorkTime before = work_time(drawn, {}, home, home);
     const WorkTime joined = work_time(linked(drawn, 3.0).strokes, {}, home, home);

@@ -1,13 +1,19 @@
 #include "core/plot/path_file.h"
 
 #include "core/base/error.h"
+#include "core/plot/point_file.h"
+#include "tests/support/reason.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
 
 namespace millwright::plot {
 namespace {
+
+using ::testing::HasSubstr;
 
 CutPath random_path() {
     std::mt19937 random(8);
@@ -34,6 +40,18 @@ TEST(PathFiles, AByteOrderMarkIsSkipped) {
     const std::string marked = "\xEF\xBB\xBF" + path_file_text(random_path());
     EXPECT_TRUE(is_path_file(marked));
     EXPECT_EQ(read_path(marked, "a.path"), random_path());
+}
+
+// The zero bytes between its letters would end each number after one digit.
+TEST(PathFiles, AndPointFilesInUtf16AreRefused) {
+    using namespace std::string_literals;
+    for (const std::string& text :
+         {"\xFF\xFEx\0;\0y\0;\0"s, "\xFE\xFF\0x\0;\0y"s, "x\0;\0y\0;\0"s, "\0x\0;\0y\0;"s}) {
+        const PointFile points = read_points(text, "wide.csv");
+        ASSERT_EQ(points.diagnostics.size(), 1U);
+        EXPECT_THAT(to_text(points.diagnostics[0]), HasSubstr("wide.csv:1: the file is text in UTF-16"));
+        EXPECT_THAT(test::reason([&] { (void)read_path(text, "wide.path"); }), HasSubstr("UTF-16"));
+    }
 }
 
 int line_of_fault(const std::string& record) {

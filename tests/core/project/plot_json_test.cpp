@@ -26,10 +26,10 @@ Project every_setting_changed() {
         setting.set(set, 0.5 * (setting.max + setting.default_value()));
     }
     set.use = PictureUse::halftone;
-    set.hpgl.fill = plot::FillMode::outline;
-    set.hpgl.line_ends = plot::LineEnds::join;
+    set.hpgl.fill = hpgl::FillMode::outline;
+    set.hpgl.line_ends = hpgl::LineEnds::join;
     set.hpgl.dashes = false;
-    set.hpgl.strictness = plot::Strictness::strict;
+    set.hpgl.strictness = hpgl::Strictness::strict;
     set.picture.gray = plot::GrayRule::luminance;
     set.picture.invert = true;
     set.tracing.turns = plot::TurnPolicy::left;

@@ -41,15 +41,15 @@ fs::path file_in(const PlotPerson& bench, const std::string& name, const std::st
 
 TEST(PlotFiles, TheProgramsOwnSpindleCountsUntilAPersonTypesAnother) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
-    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S10000"));
+    EXPECT_THAT(bench.made().program->listing->text, HasSubstr("S10000"));
     bench.drop(file_in(bench, "turns.ngc", with_s));
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
-    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S8000"));
+    EXPECT_THAT(bench.made().program->listing->text, HasSubstr("S8000"));
     EXPECT_TRUE(bench.made().notices.empty());
     bench.person.keep("plot-spindle");
     bench.person.fill_in("inspector/work/spindle_rpm", "10000");
     bench.settle();
-    EXPECT_THAT(read_file(bench.made().program), HasSubstr("S10000"));
+    EXPECT_THAT(bench.made().program->listing->text, HasSubstr("S10000"));
     ASSERT_EQ(bench.made().notices.size(), 1U);
     EXPECT_THAT(bench.made().notices[0].message, HasSubstr("8000 rpm, but here it is set to 10000"));
     bench.person.fill_in("inspector/work/spindle_rpm", "8000");
@@ -186,7 +186,7 @@ TEST(PlotFiles, TheChordLengthOfArcsIsTypedInTheWindow) {
     bench.drop(file_in(
         bench, "circle.ngc", "G21 G90\nG0 Z5\nG0 X10 Y20\nG1 Z-1 F100\nG2 X10 Y20 I10 J0\nG0 Z5\nM2\n"));
     const auto chords = [&] { // of a circumference of 62.83 mm; one line more leads to the circle
-        const std::string text = read_file(bench.made().program);
+        const std::string text = bench.made().program->listing->text;
         return std::ranges::count_if(
                    split_lines(text),
                    [](const std::string& line) { return line.starts_with('X') || line.starts_with('Y'); }) -

@@ -63,7 +63,7 @@ TEST(PlotWorkspace, TheTimeOfThePlannerIsThatOfTheTextThatIsWritten) {
     PlotPerson bench("assets/samples/plot/hatched-sign.plt", {1600, 1200});
     const auto of_text = [&] {
         posts::ReleasedText released;
-        released.listing.text = read_file(bench.made().program);
+        released.listing.text = bench.made().program->listing->text;
         const auto machine =
             kinematics::read_machine(project::machine_path(bench.plot().settings().machine, ".", "assets"));
         return plan::seconds_of_text(released, {}, machine, "p.ngc");
@@ -363,22 +363,6 @@ TEST(PlotWorkspace, AProgramOfASampleGoesIntoTheUsersOwnFolder) {
     EXPECT_EQ(programs_there(), before);
 }
 
-TEST(PlotWorkspace, TheTimelineTellsOfAJobThatIsNoneOfThePlots) {
-    PlotPerson bench("assets/samples/plot/everyday.plt");
-    bench.person.app().view_state().workspace = Workspace::machine;
-    bench.person.open("assets/projects/dome.json");
-    bench.settle();
-    bench.person.app().run("machine.run");
-    ASSERT_TRUE(bench.person.live_until([&] { return bench.person.app().look().job.report.has_value(); }));
-    bench.person.app().view_state().workspace = Workspace::plot;
-    bench.person.frames(3);
-    ASSERT_TRUE(bench.person.app().look().job.running);
-    EXPECT_THAT(bench.person.refusal("timeline/timeline/play"), HasSubstr("A job is running"));
-    bench.person.keep("plot-beside-a-job");
-    bench.person.app().run("machine.stop");
-    EXPECT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().job.running; }));
-}
-
 /// Chooses a table at `port` that takes `pattern` and answers by `ok`; nothing is connected yet.
 void choose_table(Person& person,
                   const std::string& port,
@@ -499,27 +483,6 @@ TEST(PlotWorkspace, ACoordinateStreamTakesNothingFromTheTableByRecords) {
     EXPECT_EQ(truth().bad_lines, 0) << truth().first_fault;
     bench.person.app().run("machine.stop");
     ASSERT_TRUE(bench.person.live_until([&] { return !bench.person.app().look().job.running; }));
-}
-
-TEST(PlotWorkspace, ThePlotPlaysAgainWhenOneComesBackFromTheMachine) {
-    PlotPerson bench("assets/samples/plot/everyday.plt");
-    const double duration = bench.person.app().look().duration();
-    ASSERT_GT(duration, 0.0);
-    bench.person.click("inspector/plot_to_machine");
-    bench.settle();
-    ASSERT_EQ(bench.person.app().look().opened->file, bench.folder / "everyday.ngc");
-    bench.person.app().view_state().workspace = Workspace::plot;
-    bench.settle();
-    EXPECT_TRUE(bench.person.sees("layers/position/gone"));
-    EXPECT_EQ(bench.person.app().look().opened->file, bench.made().program);
-    EXPECT_NEAR(bench.person.app().look().duration(), duration, 1e-9);
-    bench.person.click("timeline/timeline/last");
-    bench.person.frames(3);
-    EXPECT_NEAR(bench.person.app().look().time(), duration, 1e-6);
-    bench.person.keep("plot-back");
-    bench.person.app().view_state().workspace = Workspace::machine; // has what was sent there
-    bench.settle();
-    EXPECT_EQ(bench.person.app().look().opened->file, bench.folder / "everyday.ngc");
 }
 
 TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {

@@ -49,7 +49,7 @@ TEST(ProgramFile, OpensBesideTheProjectAndShowsItsWorkspace) {
     EXPECT_EQ(now.view_state.workspace, Workspace::program);
     EXPECT_EQ(now.project, before);
     ASSERT_TRUE(now.opened && now.opened->execution && now.opened->motion);
-    EXPECT_EQ(now.opened->text->lines.count(), 3006);
+    EXPECT_EQ(now.opened->text->lines().count(), 3006);
     EXPECT_TRUE(person.sees("program/listing"));
     EXPECT_TRUE(person.sees("inspector/modal/feed"));
     person.keep("program-file");

@@ -46,7 +46,7 @@ protected:
     /// Opens the sheet for what is shown, which Run may refuse.
     void ask_all_the_same() {
         const auto now = person.app().look();
-        const jobs::Job job = jobs::text_job(std::string(now.opened->text->bytes.text()), now.opened->file);
+        const jobs::Job job = jobs::text_job(std::string(now.opened->text->text()), now.opened->file);
         person.app().ask_to_start(actions::start_wish(job, {}, now.connection));
         person.frames(2);
         wait_for_check();

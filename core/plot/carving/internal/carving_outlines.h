@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/plot/region.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/region.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/plot/carving/internal/segment_contacts.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <fmt/format.h>
 #include <polyclipping/clipper.hpp>

@@ -4,7 +4,7 @@
 
 #include "core/base/progress.h"
 #include "core/plot/carving/medial_axis.h"
-#include "core/plot/region.h"
+#include "core/plot_strokes/region.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 #include "core/base/progress.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/tool_tip.h"
-#include "core/plot/region.h"
+#include "core/plot_strokes/region.h"
 
 namespace millwright::plot::internal {
 

@@ -2,8 +2,8 @@
 // share nothing but the settings.
 #include "core/base/units.h"
 #include "core/emulators/grbl/grbl_emulator.h"
+#include "core/hpgl/reader.h"
 #include "core/motion/planner.h"
-#include "core/plot/hpgl/reader.h"
 #include "core/plot/plot_program.h"
 #include "core/plot/stroke_plan.h"
 #include "tests/support/programs.h"
@@ -126,7 +126,7 @@ TEST(TimeEstimate, IsWhatTheEmulatedGrblTakesForManyShortBlocks) {
 }
 
 TEST(TimeEstimate, OfAPlotIsWhatTheEmulatedGrblTakesForItLinkedOrNot) {
-    const plot::Strokes drawn = plot::read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
+    const plot::Strokes drawn = hpgl::read_hpgl_file("assets/samples/plot/hatched-sign.plt").strokes;
     double as_drawn = 0.0;
     for (const double link : {0.0, 3.0}) {
         const plot::Strokes strokes = plot::planned(drawn, {.link = link}).strokes;

@@ -4,8 +4,8 @@
 #include "core/base/units.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/tool_tip.h"
-#include "core/plot/region.h"
-#include "core/plot/strokes.h"
+#include "core/plot_strokes/region.h"
+#include "core/plot_strokes/strokes.h"
 
 #include <algorithm>
 #include <cmath>

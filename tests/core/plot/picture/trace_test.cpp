@@ -4,7 +4,7 @@
 #include "core/base/files.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/plot/region.h"
+#include "core/plot_strokes/region.h"
 #include "tests/support/oracle.h"
 #include "tests/support/without_traps.h"
 

@@ -1,0 +1,196 @@
+#include "core/hpgl/internal/pen.h"
+
+#include "core/hpgl/internal/window.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace millwright::hpgl::internal {
+
+Pen::Pen(const HpglSettings& settings, const Problems& problems)
+    : problems_(problems), unit_(settings.unit.x, settings.unit.y),
+      farthest_(Vec2::Constant(settings.farthest).cwiseQuotient(unit_)), points_left_(settings.most_points) {}
+
+void Pen::select(int number) {
+    end_dot();
+    open_ = open_ && number_ == number;
+    number_ = number;
+}
+
+void Pen::put_away() {
+    lift();
+    number_.reset();
+}
+
+void Pen::lower() {
+    dot_ = dot_ || (!down_ && !polygon_open_);
+    down_ = true;
+}
+
+void Pen::lift() {
+    end_dot();
+    down_ = false;
+    open_ = false;
+    line.restart();
+}
+
+void Pen::go(const Vec2& to) {
+    if (lost_) {
+        lost_ = stays_lost_;
+        dot_ = false;
+        move(to, false);
+    } else {
+        move(to, down_);
+    }
+}
+
+void Pen::step(const Vec2& by) {
+    move(at_ + by, down_ && !lost_);
+}
+
+void Pen::place(const Vec2& to) {
+    move(to, false);
+}
+
+void Pen::draw(const Vec2& to) {
+    move(to, !lost_);
+}
+
+bool Pen::would_close(const Vec2& to) const {
+    return open_ && down_ && !lost_ && !strokes_.empty() && strokes_.back().points.front() == mm(to);
+}
+
+bool Pen::is_near(const Vec2& place) {
+    if (std::abs(place.x()) <= farthest_.x() && std::abs(place.y()) <= farthest_.y()) {
+        return true;
+    }
+    constexpr double m = 1e-3;
+    refuse(fmt::format("a position is {:.0f} m from the origin: two numbers may have run together",
+                       m * mm(place).cwiseAbs().maxCoeff()));
+    return false;
+}
+
+void Pen::refuse(std::string why) {
+    if (!refusal_) {
+        refusal_ = std::move(why);
+    }
+}
+
+Pen::Mark Pen::mark() const {
+    return {.strokes = strokes_.size(),
+            .points = strokes_.empty() ? 0 : strokes_.back().points.size(),
+            .points_left = points_left_,
+            .at = at_,
+            .down = down_,
+            .number = number_};
+}
+
+void Pen::take_back(const Mark& mark) {
+    strokes_.resize(mark.strokes);
+    if (!strokes_.empty()) {
+        strokes_.back().points.resize(mark.points);
+    }
+    points_left_ = mark.points_left;
+    at_ = mark.at;
+    down_ = mark.down;
+    number_ = mark.number;
+}
+
+void Pen::move(const Vec2& to, bool drawn) {
+    if (refusal_ || !is_near(to)) {
+        return;
+    }
+    if (polygon_open_) {
+        count_points(1);
+        polygon_.back().push_back({to, drawn});
+    } else if (drawn && number_) {
+        draw_vector(at_, to);
+        dot_ = false;
+    } else {
+        open_ = false;
+        line.restart();
+    }
+    at_ = to;
+}
+
+void Pen::lose() {
+    lost_ = true;
+    dot_ = false;
+    open_ = false;
+}
+
+// A pen that went down and up at one place, with no line from there, leaves a dot.
+void Pen::end_dot() {
+    if (std::exchange(dot_, false) && number_ && !lost_) {
+        draw_clipped(at_, at_);
+        open_ = false;
+    }
+}
+
+void Pen::draw_vector(const Vec2& from, const Vec2& to) {
+    if (line.solid()) {
+        draw_clipped(from, to);
+        return;
+    }
+    line.apply(from, to, [this](const Vec2& a, const Vec2& b) {
+        open_ = open_ && a == tip_;
+        draw_clipped(a, b);
+    });
+}
+
+void Pen::draw_clipped(Vec2 from, Vec2 to) {
+    if (!window || clip(*window, from, to)) {
+        append(from, to);
+    } else {
+        count_points(1); // or endless dashes outside of the window would take for ever
+    }
+}
+
+void Pen::append(const Vec2& from, const Vec2& to) {
+    if (!open_ || from != tip_ || strokes_.back().pen != *number_) {
+        constexpr int points_of_a_stroke = 4; // its own memory beside them
+        count_points(points_of_a_stroke);
+        strokes_.push_back({.pen = *number_, .points = {mm(from)}, .byte = byte});
+        open_ = true;
+    }
+    if (to != from) {
+        count_points(1);
+        strokes_.back().points.push_back(mm(to));
+    }
+    tip_ = to;
+}
+
+void Pen::count_points(int count) {
+    points_left_ -= count;
+    if (points_left_ < 0) {
+        throw Error(
+            problems_.at(byte, "the plot has more points than allowed", "check the file: it may be damaged"));
+    }
+}
+
+void Pen::open_polygon() {
+    end_dot();
+    polygon_.assign(1, Outline{{at_, false}});
+    polygon_open_ = true;
+}
+
+void Pen::next_outline() {
+    polygon_.emplace_back();
+}
+
+void Pen::close_polygon() {
+    polygon_open_ = false;
+    at_ = polygon_.front().front().at;
+    open_ = false;
+}
+
+void Pen::finish(Plot& plot, std::int64_t at_byte) {
+    byte = at_byte;
+    lift();
+    plot.strokes = std::move(strokes_);
+    plot.end = mm(at_);
+}
+
+} // namespace millwright::hpgl::internal
