@@ -59,6 +59,18 @@ links::FaultSpec faults_of(const EmulationChoice& choice) {
     }
 }
 
+/// What a host sent before the end is executed, too: its bytes may still be under way.
+void hear_the_rest(const emulators::EmulatorServer& server, SteadyClock& clock) {
+    constexpr double glance = 0.05, quiet = 0.25, longest = 2.0; // s
+    double silence = 0.0;
+    std::int64_t heard = server.heard();
+    for (double waited = 0.0; waited < longest && silence < quiet; waited += glance) {
+        clock.wait(glance);
+        const std::int64_t before = std::exchange(heard, server.heard());
+        silence = heard == before ? silence + glance : 0.0;
+    }
+}
+
 } // namespace
 
 void add_emulation_options(CLI::App& command, EmulationChoice& choice) {
@@ -110,6 +122,7 @@ int serve(const EmulationChoice& choice,
         }
     }
     if (last_words) {
+        hear_the_rest(server, clock);
         server.with_emulator([&](const emulators::Emulator& served) { last_words(served); });
     }
     return 0;

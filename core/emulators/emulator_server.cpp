@@ -24,6 +24,11 @@ std::string EmulatorServer::failure() const {
     return failure_;
 }
 
+std::int64_t EmulatorServer::heard() const {
+    const std::scoped_lock lock(mutex_);
+    return heard_;
+}
+
 void EmulatorServer::wait_for_host(std::optional<double> silence) {
     const std::scoped_lock lock(mutex_);
     longest_silence_ = silence;
@@ -73,6 +78,7 @@ void EmulatorServer::turn(double& last) {
         visits += link->visits();
     }
     silence_ = heard.empty() ? silence_ : 0.0;
+    heard_ += static_cast<std::int64_t>(heard.size());
     passed_ += static_cast<std::int64_t>(heard.size());
     if (std::exchange(visits_, visits) != visits && reset_when_opened_) {
         emulator_->power_cycle(); // and what was sent meanwhile is lost

@@ -40,6 +40,8 @@ public:
     /// The controller loses its power for a moment whenever a program connects, as boards do that are wired
     /// to DTR.
     void reset_when_opened(bool on);
+    /// Bytes that have come from hosts.
+    [[nodiscard]] std::int64_t heard() const;
     /// Why it no longer serves; empty while it does.
     [[nodiscard]] std::string failure() const;
 
@@ -58,8 +60,9 @@ private:
     const Clock& clock_;
     double speed_;
     links::FaultSpec faults_;
-    std::int64_t passed_ = 0; ///< bytes
     mutable FairMutex mutex_; ///< guards what follows
+    std::int64_t passed_ = 0; ///< bytes both ways
+    std::int64_t heard_ = 0;  ///< those from hosts
     std::unique_ptr<Emulator> emulator_;
     std::string failure_;
     std::optional<double> longest_silence_; ///< of the controller's time

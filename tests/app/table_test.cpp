@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <thread>
@@ -229,6 +230,20 @@ TEST(TableCommand, PathFilesAreSentAndTheEnvelopeIsCheckedBefore) {
     const Ended good = run(send_words((folder / "good.path").string(), port, folder));
     EXPECT_EQ(good.exit_code, 0) << good.err;
     EXPECT_THAT(table.stop().out, HasSubstr("4 records executed, 0 invalid lines, at X 480.0000 Y 2.0000"));
+}
+
+// Of records that were sent just before Ctrl-C, some were missing in the count.
+TEST(TableCommand, RecordsThatCameBeforeTheEndAreCounted) {
+    const ScratchFolder folder;
+    const std::string port = (folder / "table").string();
+    Emulator table(port, {}, "table");
+    std::ofstream records(port, std::ios::binary);
+    constexpr int count = 300;
+    for (int n = 1; n <= count; ++n) {
+        records << "t " << n << " 0 0 100 10\r\n";
+    }
+    records.flush();
+    EXPECT_THAT(table.stop().out, HasSubstr("300 records executed, 0 invalid lines, at X 300.0000"));
 }
 
 TEST(TableCommand, PointsArePlayedOneAPeriodAndTheirJitterIsTold) {

@@ -1,10 +1,14 @@
 // What a person does at the Machine workspace before anything else.
 #pragma once
 
+#include "core/drivers/console.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
 
 #include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
 
 namespace millwright::test {
 
@@ -34,10 +38,27 @@ inline void connect(Person& person, GrblBench& grbl) {
 /// Runs what is shown, or what waits in the queue, and says yes to the question before a machine moves.
 inline void press_run(Person& person, const std::string& button = "inspector/job/machine_run") {
     const std::string start = "dialogs/start/start_go";
-    person.click(button);
-    ASSERT_TRUE(person.live_until([&] { return person.sees(start) && person.refusal(start).empty(); }))
+    ASSERT_TRUE(person.click_when_offered(button)) << button << ": " << person.refusal(button);
+    ASSERT_TRUE(person.click_when_offered(start))
         << (person.sees(start) ? person.refusal(start) : "not asked");
-    person.click(start);
+    ASSERT_TRUE(person.live_until([&] { return !person.sees(start); })) << person.refusal(start);
+}
+
+/// What was sent and received, and what machine and job are doing: for the message of a failed test.
+[[nodiscard]] inline std::string conversation(Person& person) {
+    const auto now = person.app().look();
+    std::string text = "state " + std::string(to_text(now.connection.status.state)) + ", " +
+                       now.connection.status.message +
+                       (now.job.outcome ? "; job: " + now.job.outcome->sentence : "; no outcome") +
+                       (now.view_state.start ? "; the question is still open" : "");
+    std::vector<drivers::ConsoleLine> lines;
+    if (now.console) {
+        (void)now.console->read(0, lines);
+    }
+    for (const drivers::ConsoleLine& line : lines) {
+        text += (line.sent ? "\n> " : "\n< ") + line.text;
+    }
+    return text;
 }
 
 } // namespace millwright::test

@@ -201,12 +201,12 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([this] { return grbl.position()[0] > 2.0; }, 60.0));
-    person.click("inspector/job/machine_hold");
+    ASSERT_TRUE(person.click_when_offered("inspector/job/machine_hold"));
     ASSERT_TRUE(person.live_until([this] { return is(DriverState::holding) && !grbl.moving(); }));
     person.frames(3);
     person.click("inspector/overrides/feed_less");
     ASSERT_TRUE(person.live_until([this] { return status().overrides.feed == 90; }));
-    person.click("inspector/job/machine_resume");
+    ASSERT_TRUE(person.click_when_offered("inspector/job/machine_resume"));
     const double held = grbl.position()[0];
     ASSERT_TRUE(person.live_until([&] { return grbl.position()[0] > held + 2.0; }, 60.0));
     grbl.raise_alarm();
@@ -232,7 +232,8 @@ TEST_F(MachineControls, PauseOverrideAndRecoverAJobAfterAFault) {
     ASSERT_TRUE(person.live_until([this] { return person.refusal("inspector/job/machine_run").empty(); }));
     test::press_run(person);
     const auto outcome = [this] { return person.app().look().job.outcome; };
-    ASSERT_TRUE(person.live_until([&] { return outcome() && outcome()->end != JobEnd::fault; }, 90.0));
+    ASSERT_TRUE(person.live_until([&] { return outcome() && outcome()->end != JobEnd::fault; }, 90.0))
+        << test::conversation(person);
     EXPECT_EQ(outcome()->end, JobEnd::done) << outcome()->sentence;
     EXPECT_NEAR(grbl.position()[0], 30.0, 0.01);
     EXPECT_GT(line, first);

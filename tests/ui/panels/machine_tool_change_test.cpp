@@ -66,8 +66,9 @@ TEST_P(ToolChangeAtGrbl, WaitsWhileThePersonJogsAndZeroesAndGoesOnWithContinue) 
     person.click("hand/position/zero_Z");
     ASSERT_TRUE(person.live_until([this] { return waits() && status().work_offset[2] < -3.9; }));
     EXPECT_TRUE(person.app().look().job.running);
-    person.click("inspector/job/machine_resume");
-    ASSERT_TRUE(person.live_until([this] { return person.app().look().job.outcome.has_value(); }, 60.0));
+    ASSERT_TRUE(person.click_when_offered("inspector/job/machine_resume"));
+    ASSERT_TRUE(person.live_until([this] { return person.app().look().job.outcome.has_value(); }, 60.0))
+        << test::conversation(person);
     EXPECT_EQ(person.app().look().job.outcome->end, jobs::JobEnd::done)
         << person.app().look().job.outcome->sentence;
     EXPECT_NEAR(grbl.position()[2], 4.0, 0.01); // Z8 from the new zero

@@ -114,15 +114,22 @@ bool Person::hold_until(const std::function<bool()>& done, double seconds) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     auto last = start;
-    while (std::chrono::duration<double>(last - start).count() < seconds) {
+    auto pressed = start;
+    const auto between = [](Clock::time_point from, Clock::time_point to) {
+        return std::chrono::duration<double>(to - from).count();
+    };
+    while (between(start, last) < seconds) {
         frame_of_a_screen();
         if (done()) {
             return true;
         }
         const auto now = Clock::now();
-        if (std::chrono::duration<double>(now - std::exchange(last, now)).count() >
-            0.5 * actions::HoldToRunJog::longest_frame) {
+        const bool stood_still =
+            between(std::exchange(last, now), now) > 0.5 * actions::HoldToRunJog::longest_frame;
+        constexpr double without_effect = 3.0; // s
+        if (stood_still || between(pressed, now) > without_effect) {
             press_anew();
+            pressed = now;
         }
     }
     return done();
@@ -211,6 +218,18 @@ void Person::choose(const std::string& path, const std::string& option) {
 }
 
 void Person::click(std::string_view path) {
+    constexpr int tries = 5;
+    for (int n = 0; n < tries && !press_on(path); ++n) {
+        hover({-1.0F, -1.0F}); // lets go beside the window, where that has no effect
+        input_.buttons[0] = false;
+        frames(2);
+    }
+    frame();
+    input_.buttons[0] = false;
+    frames(2);
+}
+
+bool Person::press_on(std::string_view path) {
     constexpr int looks = 10;
     bring_into_sight(path);
     widgets::Rect there{};
@@ -218,7 +237,18 @@ void Person::click(std::string_view path) {
         there = place(path);
         hover(there.centre());
     }
-    press();
+    input_.buttons[0] = true;
+    frame();
+    const auto found = desktop_->ui().place(path);
+    return !found || *found == there;
+}
+
+bool Person::click_when_offered(std::string_view path, double seconds) {
+    const bool offered = live_until([&] { return sees(path) && refusal(path).empty(); }, seconds);
+    if (offered) {
+        click(path);
+    }
+    return offered;
 }
 
 void Person::click_at(widgets::Point at) {

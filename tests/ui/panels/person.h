@@ -48,8 +48,9 @@ public:
     /// Frames at the pace of a screen, until `done` has become true and been drawn, or the time is over.
     bool live_until(const std::function<bool()>& done, double seconds = 20.0);
     /// The same with what is held down now. After a frame in which the computer stood still, the window wants
-    /// another press (actions::HoldToRunJog::longest_frame): it gets one.
-    bool hold_until(const std::function<bool()>& done, double seconds = 20.0);
+    /// another press (actions::HoldToRunJog::longest_frame): it gets one. So it does where a press has had no
+    /// effect for a while, as where the machine was just braking.
+    bool hold_until(const std::function<bool()>& done, double seconds = 60.0);
 
     /// Where a widget was in the last frame. Throws Error if it was not drawn.
     [[nodiscard]] widgets::Rect place(std::string_view path);
@@ -61,8 +62,12 @@ public:
     void bring_into_sight(std::string_view path);
     /// Of a choice at `path`, whose options come up or stand there; waits until it has had its effect.
     void choose(const std::string& path, const std::string& option);
-    /// In the middle of a widget that is brought into sight first.
+    /// In the middle of a widget that is brought into sight first. Where the widget moves away in the frame
+    /// of the press, it is pressed again.
     void click(std::string_view path);
+    /// As soon as it is drawn and not greyed out: what a panel offers follows the machine's state by some
+    /// frames, and that of a job by some more. False if it was not offered within the time, s.
+    [[nodiscard]] bool click_when_offered(std::string_view path, double seconds = 60.0);
     void click_at(widgets::Point at);
     void drag(widgets::Point from, widgets::Point to, int steps = 5);
     void hover(widgets::Point at);
@@ -94,6 +99,7 @@ private:
                               ///< real time
     void press_anew();        ///< what is held down
     void press();             ///< and lets go, where the mouse is
+    bool press_on(std::string_view path); ///< whether the widget was where the button went down
 
     float scale_; ///< of the monitor
     std::filesystem::path folder_;

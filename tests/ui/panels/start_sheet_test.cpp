@@ -303,6 +303,7 @@ TEST_F(StartSheetAtGrbl, AMachineThatIsGoneIsNotReplacedByAVirtualOne) {
     person.press_key(render::Key::enter);
     person.frames(5);
     EXPECT_FALSE(has_job());
+    person.wait_idle(); // what is worked out anew without a machine
     person.click("dialogs/start/start_cancel");
     EXPECT_FALSE(is_asked());
 }

@@ -121,8 +121,10 @@ TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     EXPECT_EQ(person_.project().grid.elliptic.weight, project::WeightSource::error);
     person_.press_key(render::Key::y, true);
     ASSERT_TRUE(painted());
-    person_.click("inspector/surface_tool/stroke/erase");
+    person_.wait_idle(); // the plan with the paint moves what is below it
+    person_.choose("inspector/surface_tool/stroke", "erase");
     person_.fill_in("inspector/surface_tool/radius", "40");
+    person_.wait_idle();
     person_.drag(at(0.45F, 0.5F), at(0.55F, 0.5F), 12);
     EXPECT_EQ(std::ranges::max(painted()->values), 0.0);
     person_.click("inspector/surface_tool/clear_paint");

@@ -106,6 +106,9 @@ void GrblSession::tick(double now) {
     const double pause = host_stall_.taken(now);
     last_heard_ = std::min(now, last_heard_ + pause);
     last_answer_ = std::min(now, last_answer_ + pause);
+    if (stage_ == Stage::greeting || stage_ == Stage::asking) {
+        ending_since_ = std::min(now, ending_since_ + pause);
+    }
     watch_silence(now);
     watch_ending(now);
     watch_hold(now);

@@ -133,6 +133,20 @@ TEST(GrblFirmware, SomebodyElseIsQuoted) {
     EXPECT_EQ(session.stranger()->message, "no Grbl controller answers at this port; received 'Smoothie'");
 }
 
+// On a computer that kept this program waiting for longer than a greeting takes, it found no Grbl.
+TEST(GrblFirmware, IsWaitedForAfreshWhereThisProgramWasKeptFromItsWork) {
+    GrblSession session;
+    session.opened(0.0);
+    session.tick(0.1);
+    session.tick(10.0);
+    EXPECT_FALSE(session.greeted()) << session.status().message;
+    for (double now = 10.1; now < 20.0 && !session.greeted(); now += 0.1) {
+        session.tick(now);
+    }
+    ASSERT_TRUE(session.stranger());
+    EXPECT_EQ(session.stranger()->message, "no Grbl controller answers at this port");
+}
+
 TEST(GrblFirmware, RunsAProgramOfFiveAxesAndNeverClaimsMoreThanWasExecuted) {
     for (const bool is_hal : {true, false}) {
         GrblWire wire({}, is_hal ? hal() : fluid());

@@ -279,8 +279,10 @@ TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {
 }
 
 TEST(GrblDriver, LeavesAMachineThatStillMovesWhenTheLinkIsMadeAgainToItselfUntilItIsStopped) {
-    GrblDriverBench bench(
-        {.disconnect = 6000, .toward_controller = false}, false, 1.0, {.poll_interval = 0.01});
+    GrblDriverBench bench({.disconnect = 6000, .toward_controller = false},
+                          false,
+                          1.0,
+                          {.poll_interval = 0.01, .patience = 60.0});
     bench.driver->connect();
     bench.driver->start(
         work_of(jobs::text_job("G21 G90 G94\nG1 F60 X900\nX0\nM30\n", "slow.ngc"))); // half an hour
