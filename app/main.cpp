@@ -51,6 +51,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -105,6 +106,16 @@ std::string command_words(const CLI::App& app) {
     return next.empty() ? app.get_name() : app.get_name() + " " + command_words(*next.front());
 }
 
+constexpr std::string_view help_word = "help";
+
+/// "plan --help" of "help plan", in the order that CLI11 takes: the last one first.
+std::vector<std::string> arguments_of_help(int argc, char** argv) {
+    std::vector<std::string> words(argv + 2, argv + argc);
+    words.emplace_back("--help");
+    std::reverse(words.begin(), words.end());
+    return words;
+}
+
 void add_commands(CLI::App& app, Command& chosen) {
     add_workbench_command(app, chosen);
     add_plan_command(app, chosen);
@@ -146,7 +157,11 @@ int main(int argc, char** argv) {
     add_threads_option(app);
     expect_finite_numbers(app);
     try {
-        app.parse(argc, argv);
+        if (argc > 1 && argv[1] == help_word && !std::filesystem::exists(help_word)) {
+            app.parse(arguments_of_help(argc, argv));
+        } else {
+            app.parse(argc, argv);
+        }
     } catch (const CLI::ParseError& parsed) {
         if (parsed.get_exit_code() == 0) { // --help or --version
             return run([&] {
@@ -156,11 +171,11 @@ int main(int argc, char** argv) {
                 return exit_code;
             });
         }
-        const std::string meant =
-            suggestion_for(app, std::vector<std::string>(argv + std::min(argc, 1), argv + argc));
+        const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+        const std::string meant = suggestion_for(app, arguments);
         fmt::print(stderr,
                    "millwright: {}{}\nRun \"{} --help\" for more.\n",
-                   parsed.what(),
+                   unknown_command(app, arguments).value_or(parsed.what()),
                    meant.empty() ? meant : fmt::format(" ({})", meant),
                    command_words(app));
         return wrong_usage;

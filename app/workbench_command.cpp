@@ -19,11 +19,11 @@ namespace millwright::app {
 namespace {
 
 /// Throws Error if there is nothing to read. The file may be large: it is read once the window is there.
-/// `suggestion`: the command that may have been meant.
-void expect_readable(const std::filesystem::path& file, const std::string& suggestion) {
+/// `hint`: for a word that may have been meant as a command; else empty.
+void expect_readable(const std::filesystem::path& file, const std::string& hint) {
     std::error_code failure;
-    if (!suggestion.empty() && !std::filesystem::exists(file, failure)) {
-        throw UsageError("'" + file.string() + "' is neither a command nor a file", {}, suggestion);
+    if (!hint.empty() && !std::filesystem::exists(file, failure)) {
+        throw UsageError("'" + file.string() + "' is neither a command nor a file", {}, hint);
     }
     if (std::filesystem::is_directory(file, failure)) {
         throw Error("is a folder", file);
@@ -34,7 +34,7 @@ void expect_readable(const std::filesystem::path& file, const std::string& sugge
     }
 }
 
-int open_workbench(const std::string& file, const std::string& suggestion) {
+int open_workbench(const std::string& file, const std::string& hint) {
     if (file.empty()) {
         run_workbench(std::nullopt);
         return 0;
@@ -42,7 +42,7 @@ int open_workbench(const std::string& file, const std::string& suggestion) {
     if (std::filesystem::path(file).extension() == ".json") {
         (void)open_project(file); // what is wrong with it is reported here, before a window opens
     } else {
-        expect_readable(file, suggestion);
+        expect_readable(file, hint);
     }
     run_workbench(file);
     return 0;
@@ -56,7 +56,11 @@ void add_workbench_command(CLI::App& app, Command& chosen) {
         "FILE", *file, "Project (.json), plot, picture, path or G-code file to open in the workbench");
     chosen = [file, &app] {
         const bool is_word = file->find_first_of("./") == std::string::npos;
-        return open_workbench(*file, is_word ? command_suggestion(app, *file) : std::string());
+        const std::string meant = command_suggestion(app, *file);
+        return open_workbench(*file,
+                              is_word && meant.empty() ? "'millwright --help' lists the commands"
+                              : is_word                ? meant
+                                                       : std::string());
     };
 }
 

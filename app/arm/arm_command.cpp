@@ -21,6 +21,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,10 +51,26 @@ arm::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& op
     return start;
 }
 
+/// A ; at the end of a line. In G-code it begins a comment.
+bool ends_a_block(const std::string& text) {
+    for (std::size_t at = text.find(';'); at != std::string::npos; at = text.find(';', at + 1)) {
+        const std::size_t next = text.find_first_not_of(" \t\r", at + 1);
+        if (next == std::string::npos || text[next] == '\n') {
+            return true;
+        }
+    }
+    return false;
+}
+
 int simulate(const ArmSimulationOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const arm::JointPositions start = start_of(arm, options);
     const std::string text = read_file(options.file);
+    if (!ends_a_block(text)) {
+        throw Error("this is not a motion file: none of its blocks ends with ;",
+                    options.file,
+                    "'millwright arm reach' takes G-code");
+    }
     const auto blocks = arm::parse_arm_motion(text, options.file);
     const auto records = arm::simulate_arm(arm, blocks, start, options.step_mm, options.file);
     const double seconds = actions::motion_of_file(arm, text, start, options.file).trajectory.duration();

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 #include <optional>
 #include <regex>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +66,18 @@ std::string names_of(const std::set<CLI::Option*>& options) {
     return text;
 }
 
+/// What a text of an option is, where that is not said with it.
+std::string named_text(const CLI::Option& option) {
+    const std::string name = option.get_lnames().empty() ? std::string() : option.get_lnames().front();
+    if (name == "machine") {
+        return option.get_description().find("file") == std::string::npos ? "NAME" : "NAME|FILE";
+    }
+    static const std::map<std::string, std::string> kinds{
+        {"out", "FILE"}, {"surface", "NAME"}, {"tool", "TOOL"}, {"format", "FORMAT"}, {"unit", "UNIT"}};
+    const auto kind = kinds.find(name);
+    return kind == kinds.end() ? "TEXT" : kind->second;
+}
+
 } // namespace
 
 ValueText value_text(const std::string& type) {
@@ -88,10 +102,12 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
     if (option->get_type_size() == 0) { // a flag
         return {};
     }
-    const ValueText value = value_text(option->get_type_name());
+    ValueText value = value_text(option->get_type_name());
     const bool is_named = option->get_positional() && value.name == "TEXT"; // by its own name
+    value.name = value.name == "TEXT" ? named_text(*option) : value.name;
     std::string text = value.name.empty() || is_named ? std::string() : " " + value.name;
-    if (option->get_expected_max() == CLI::detail::expected_max_vector_size) {
+    const bool names_all = value.name.find(',') != std::string::npos; // of a list: X,Y,Z
+    if (option->get_expected_max() == CLI::detail::expected_max_vector_size && !names_all) {
         text += " ...";
     }
     std::vector<std::string> remarks;

@@ -21,6 +21,7 @@ void add_origin_option(CLI::App& command, std::vector<double>& origin, const std
             name, take, "Program zero in machine coordinates: X,Y or X,Y,Z, mm")
         ->delimiter(',')
         ->expected(2, CLI::detail::expected_max_vector_size)
+        ->type_name("X,Y[,Z]")
         ->allow_extra_args(false);
 }
 

@@ -96,4 +96,26 @@ std::string suggestion_for(const CLI::App& app, std::span<const std::string> arg
     return {};
 }
 
+std::optional<std::string> unknown_command(const CLI::App& app, std::span<const std::string> arguments) {
+    const CLI::App* at = &app;
+    std::string words;
+    for (const std::string& argument : arguments) {
+        const std::vector<std::string> known = command_names(*at);
+        if (known.empty() || argument.starts_with('-')) {
+            return std::nullopt;
+        }
+        if (std::ranges::find(known, argument) == known.end()) {
+            if (at != &app) {
+                return fmt::format("'{}{}' is not a command", words, argument);
+            }
+            const bool may_be_file = argument.find_first_of("./") != std::string::npos;
+            return may_be_file ? std::nullopt
+                               : std::optional(fmt::format("'{}' is neither a command nor a file", argument));
+        }
+        at = at->get_subcommand(argument);
+        words += argument + " ";
+    }
+    return std::nullopt;
+}
+
 } // namespace millwright::app

@@ -1,6 +1,7 @@
 // What a mistyped command or option was probably meant to be.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,5 +22,10 @@ namespace millwright::app {
 /// The same for the first of `arguments` that no command, or no option of the command that they come to, is
 /// called. Empty where every one is, or nothing is near.
 [[nodiscard]] std::string suggestion_for(const CLI::App& app, std::span<const std::string> arguments);
+
+/// What is wrong with the first of `arguments` that stands where only a command can: "'arm recah' is not a
+/// command". Nothing where all are commands, or it may be a file.
+[[nodiscard]] std::optional<std::string> unknown_command(const CLI::App& app,
+                                                         std::span<const std::string> arguments);
 
 } // namespace millwright::app

@@ -327,10 +327,20 @@ void ConnectedController::say_what_is_left_out(const jobs::Job& job) const {
     }
 }
 
-/// No zero can be set here while the job waits.
+/// No zero can be set here while the job waits. Throws Error where nobody could end the wait.
 void ConnectedController::say_what_is_not_measured(const jobs::Job& job) const {
-    const bool by_hand = job.tool_change->way == drivers::ToolChangeWay::stop;
-    if (by_hand && !jobs::tool_calls(job.listing->text).empty()) {
+    const auto calls = jobs::tool_calls(job.listing->text);
+    if (calls.empty()) {
+        return;
+    }
+    const bool waits =
+        std::ranges::any_of(calls, [&](const auto& call) { return call.line >= job.from_line; });
+    if (waits && !choice_.keys && ::isatty(STDIN_FILENO) == 0) {
+        throw Error("the job would wait at its tool change for the key r, but the input is not a terminal",
+                    {job.project},
+                    "run it at a terminal, or accept keys from this input with --keys");
+    }
+    if (job.tool_change->way == drivers::ToolChangeWay::stop) {
         fmt::print(stderr,
                    "millwright: {}: after a tool change the job continues with the current Z zero. Use tools "
                    "of the same length (stop collars), or --tool-change probe; in the window you can set the "
@@ -387,7 +397,9 @@ jobs::Job ConnectedController::box_of(const jobs::Job& job) const {
 }
 
 void ConnectedController::show_warnings(const jobs::Job& job) const {
-    if (const auto found = program_check_of(job)) {
+    if (auto found = program_check_of(job)) {
+        found->spindle_before_cut =
+            found->spindle_before_cut || choice_.trace_box; // a box is traced without it
         for (const Diagnostic& warning : jobs::warnings_of(*found, driver_->limits(), job.project)) {
             fmt::print(stderr, "millwright: {}\n", to_text(warning));
         }

@@ -228,6 +228,7 @@ void add_send_command(CLI::App& app, Command& chosen) {
     command.add_option("--at", options->at, "Current position of that machine: X,Y,Z, mm")
         ->delimiter(',')
         ->expected(3)
+        ->type_name("X,Y,Z")
         ->allow_extra_args(false);
     add_origin_option(command, options->origin);
     add_controller_options(command, options->machine.controller);

@@ -284,16 +284,13 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
 void print_points_off(const project::PointFit& points,
                       const project::SurfaceInput& surface,
                       const char* numbered) {
-    const geometry::ControlNet& net = surface.patches.front();
     const exchange::Deviation& off = points.deviation;
-    fmt::print("{}, {}\n"
-               "{} of degree {} x {}\n"
-               "points to surface: at most {:.4g} mm ({} {}), {:.4g} mm on average, {:.4g} mm rms\n",
-               counted(points.points.size(), "point"),
-               rows_text(points.rows, points.columns),
-               surface.patches.size() == 1 ? "patch" : "patches",
-               net.rows - 1,
-               net.columns - 1,
+    fmt::print("{}, {}\n", counted(points.points.size(), "point"), rows_text(points.rows, points.columns));
+    if (!surface.face) {
+        const geometry::ControlNet& net = surface.patches.front();
+        fmt::print("patch of degree {} x {}\n", net.rows - 1, net.columns - 1);
+    }
+    fmt::print("points to surface: at most {:.4g} mm ({} {}), {:.4g} mm on average, {:.4g} mm rms\n",
                off.max,
                numbered,
                points.worst_line(),

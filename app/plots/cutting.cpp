@@ -65,6 +65,7 @@ void add_drawing_origin(CLI::App& command, std::vector<double>& origin) {
     command.add_option("--origin", origin, "Drawing origin in machine coordinates: X,Y, mm")
         ->delimiter(',')
         ->expected(2)
+        ->type_name("X,Y")
         ->allow_extra_args(false);
 }
 

@@ -196,6 +196,7 @@ void add_stroke_options(CLI::App& command, StrokeCutting& options) {
                     "Tool change position in machine coordinates: X,Y,Z, mm")
         ->delimiter(',')
         ->expected(3)
+        ->type_name("X,Y,Z")
         ->allow_extra_args(false);
     command.add_option("--tabs", options.tabs.count, "Number of tabs on closed strokes")
         ->check(not_below_zero())

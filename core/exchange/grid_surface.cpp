@@ -263,6 +263,24 @@ void check_places(const SplineBasis& u, const SplineBasis& v) {
     }
 }
 
+/// All spans as one surface.
+geometry::BsplineNet bspline_of(const SplineBasis& u, const SplineBasis& v, const Coordinates& net) {
+    geometry::BsplineNet result;
+    result.degree_u = u.degree;
+    result.degree_v = v.degree;
+    result.knots_u = u.knots;
+    result.knots_v = v.knots;
+    result.rows = static_cast<int>(u.parameters.size());
+    result.columns = static_cast<int>(v.parameters.size());
+    for (int i = 0; i < result.rows; ++i) {
+        for (int j = 0; j < result.columns; ++j) {
+            result.points.emplace_back(net[0](i, j), net[1](i, j), net[2](i, j));
+        }
+    }
+    result.weights.assign(result.points.size(), 1.0);
+    return result;
+}
+
 Box3 box_of_patches(const CadFace& face) {
     constexpr int steps = 4;
     Box3 box;
@@ -309,6 +327,9 @@ GridSurface surface_through(PointGrid grid, const std::optional<Vec3>& along, co
                                                  row,
                                                  column));
         }
+    }
+    if (made.face.patches.size() > 1) {
+        made.face.bspline = bspline_of(u, v, net);
     }
     made.face.box = box_of_patches(made.face);
     made.grid = std::move(grid);

@@ -19,7 +19,8 @@ inline constexpr int most_points_of_one_span = 6;
 
 struct GridSurface {
     PointGrid grid; ///< the points, each row turned round where `along` asks for it
-    CadFace face;   ///< not trimmed; one patch where neither direction has more points than one span
+    /// Not trimmed; one patch where neither direction has more points than one span, else with `bspline`.
+    CadFace face;
     std::vector<Vec2> places; ///< of the points on the face, in [0, rows] x [0, columns]; row by row
 };
 

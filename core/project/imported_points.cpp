@@ -90,16 +90,10 @@ ImportedSurface import_rows(exchange::PointGrid grid, const ImportChoice& choice
     } else if (choice.degrees) {
         imported = import_face(through.face, choice, progress.part(0.3, 1.0));
         points.deviation = exchange::deviation_of_points(through.grid.points, imported.fit->patch, progress);
+    } else if (through.face.bspline) { // all of it is machined
+        imported.surface.face = FaceInput{*through.face.bspline, through.face.bspline_trim()};
     } else {
-        for (const geometry::BezierPatch& patch : through.face.patches) {
-            imported.surface.patches.push_back(patch.net());
-        }
-        if (through.face.patches.size() > 1) {
-            imported.notes.push_back(fmt::format("the surface has {} x {} patches and only the first is "
-                                                 "machined; fit one patch to machine all of it",
-                                                 through.face.rows,
-                                                 through.face.columns));
-        }
+        imported.surface.patches = {through.face.patches.front().net()};
     }
     points.points = std::move(through.grid.points);
     points.lines = std::move(through.grid.lines);

@@ -25,6 +25,10 @@ TEST(Arm, SimulatesTheFileOfTheThesis) {
     EXPECT_THAT(content_of(out),
                 testing::StartsWith("next position 800.00000 0.00000 650.00000 \n\n 1 := 0.00000 \n"
                                     " 2 := -90.00000 \n 3 := 90.00000 \n"));
+    const Ended gcode = run({"arm", "simulate", "assets/samples/gcode/arcs-xy.ngc", "--out", out});
+    EXPECT_EQ(gcode.exit_code, 1);
+    EXPECT_THAT(gcode.err,
+                HasSubstr("arcs-xy.ngc: this is not a motion file: none of its blocks ends with ;"));
     write_content(file, "X300 ;\nX3000 ;");
     EXPECT_THAT(run({"arm", "simulate", file, "--out", out}).err,
                 HasSubstr("three-lines.mot:2: the arm cannot"));

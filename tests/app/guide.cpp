@@ -49,6 +49,19 @@ std::string strip_project(const std::string& name, double from) {
         .dump();
 }
 
+/// For people: adds a row to the file named by MILLWRIGHT_DOCUMENT_LOG, with the first line of `text`.
+void add_to_log(const std::string& what, const std::string& result, const std::string& text) {
+    if (const char* const log = std::getenv("MILLWRIGHT_DOCUMENT_LOG"); log != nullptr) {
+        std::ofstream(log, std::ios::app)
+            << "| " << what << " | " << result << " | " << text.substr(0, text.find('\n')) << " |\n";
+    }
+}
+
+std::string without_progress(const std::string& output) {
+    static const std::regex progress(" *[0-9]+ %  [^\n]*\n");
+    return std::regex_replace(output, progress, "");
+}
+
 } // namespace
 
 std::vector<std::string> indented_commands_of(const std::string& document) {
@@ -152,10 +165,11 @@ int Guide::follow_document(const std::string& document) {
     }
     const int tried = follow(commands_of(document)) + follow(indented_commands_of(document));
     for (const Listing& listing : listings_of(document)) {
-        EXPECT_NE(printed_[listing.command].find(listing.text), std::string::npos)
-            << "`" << listing.command << "` does not print\n"
-            << listing.text << "but\n"
-            << printed_[listing.command];
+        const bool same = printed_[listing.command].find(listing.text) != std::string::npos;
+        add_to_log("listing of `" + listing.command + "`", same ? "same" : "differs", listing.text);
+        EXPECT_TRUE(same) << "`" << listing.command << "` does not print\n"
+                          << listing.text << "but\n"
+                          << printed_[listing.command];
     }
     return tried;
 }
@@ -163,11 +177,13 @@ int Guide::follow_document(const std::string& document) {
 int Guide::follow(const std::vector<std::string>& commands) {
     int tried = 0;
     for (const std::string& command : commands) {
-        if (not_run.contains(command)) {
+        if (const auto reason = not_run.find(command); reason != not_run.end()) {
+            add_to_log("`" + command + "`", "not run", reason->second);
             continue;
         }
         if (command.find(" emulate ") != std::string::npos) {
             start(command);
+            add_to_log("`" + command + "`", "started", "");
         } else {
             const bool of_grbl =
                 command.find("ttyUSB0") != std::string::npos && command.find(" pmac ") == std::string::npos;
@@ -264,10 +280,7 @@ void Guide::run_shown(const std::string& command) {
     }
     EXPECT_EQ(run.exit_code, 0) << command << '\n' << run.output;
     printed_[command] = run.output;
-    if (const char* const log = std::getenv("MILLWRIGHT_DOCUMENT_LOG"); log != nullptr) {
-        std::ofstream(log, std::ios::app) << "| `" << command << "` | " << run.exit_code << " | "
-                                          << run.output.substr(0, run.output.find('\n')) << " |\n";
-    }
+    add_to_log("`" + command + "`", std::to_string(run.exit_code), without_progress(run.output));
     std::smatch file;
     if (std::regex_search(command, file, out)) {
         EXPECT_TRUE(fs::exists(checkout / file[1].str())) << command;

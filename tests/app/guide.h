@@ -52,7 +52,7 @@ private:
     void start(const std::string& command);
     void stop_emulators();
     /// To its end, with 0; what it names by --out is there then. With MILLWRIGHT_DOCUMENT_LOG set to a file,
-    /// its exit code and first line of output are added there.
+    /// its exit code and first line of output are added there, and whether each listing is the same.
     void run_shown(const std::string& command);
 
     std::vector<std::string> emulators_;         ///< process numbers

@@ -172,6 +172,25 @@ TEST_F(ImportCommand, PointsInRowsAreMetExactly) {
     EXPECT_EQ(run({"import", "assets/samples/cover.step", "--cloud"}).exit_code, 2);
 }
 
+// Of more than 6 x 6 points the first of many patches was machined.
+TEST_F(ImportCommand, AllOfManyPointsInRowsIsMachined) {
+    std::string text;
+    for (int x = 0; x < 7; ++x) {
+        for (int y = 0; y < 5; ++y) {
+            text += fmt::format("{} {} {}\n", 10 * x, 12 * y, x * (6 - x) * 0.5 + y * (4 - y) * 0.5);
+        }
+    }
+    write_content(path("probe.txt"), text);
+    const Ended made = run({"import", path("probe.txt"), "--out", path("probe.json")});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(made.err.find("only the first"), std::string::npos) << made.err;
+    EXPECT_THAT(made.out, HasSubstr("35 points, 7 rows of 5 points\npoints to surface: at most "));
+    EXPECT_THAT(made.out, HasSubstr("exact face of degree 3 x 4, 4 x 1 spans\n"));
+    const std::string tool = "assets/tools/ball-6.json";
+    const Ended planned = run({"plan", path("probe.json"), "--tool", tool, "--out", path("plan")});
+    EXPECT_EQ(planned.exit_code, 0) << planned.err;
+}
+
 TEST_F(ImportCommand, MeshIsFittedAndTheDeviationTold) {
     const std::string file = exported("dome.stl");
     const Ended ended = run({"import",

@@ -89,6 +89,7 @@ TEST_F(Send, TracesTheBoxOfTheCuts) {
                     : "";
     }
     EXPECT_THAT(text, HasSubstr("the box of "));
+    EXPECT_EQ(ended.err.find("spindle"), std::string::npos) << "it is off on purpose\n" << ended.err;
     EXPECT_EQ(last_record(logs).at("end"), "done");
     EXPECT_DOUBLE_EQ(last_record(logs).at("position").at(2).get<double>(), 4.0);
     (void)emulator.stop();

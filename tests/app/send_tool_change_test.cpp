@@ -76,6 +76,20 @@ TEST_F(SendToolChange, StopsForAnotherToolWhereGrblCannot) {
     (void)emulator.stop();
 }
 
+// It waited for ever.
+TEST_F(SendToolChange, IsRefusedWhereNoKeyCouldEndTheWait) {
+    write_content(file, "G21 G90 G94\nG0 Z5\nG1 X5 Y5 F3000\nT3 M6\nG1 X9\nG0 Z5\nM30\n");
+    Emulator emulator(port, {"--speed", "20"});
+    std::vector<std::string> all = words();
+    std::erase(all, "--keys");
+    all.insert(all.end(), {"--tool-change", "stop"});
+    const Ended ended = run(all);
+    EXPECT_EQ(ended.exit_code, 1) << ended.err;
+    EXPECT_THAT(ended.err, HasSubstr("for the key r, but the input is not a terminal"));
+    EXPECT_TRUE(records().empty()) << "nothing was sent";
+    (void)emulator.stop();
+}
+
 TEST_F(SendToolChange, LeavesToolChangesOutOfChecksAndTraces) {
     write_content(file, "G21 G90 G94\nG0 Z5\nG1 X5 Y5 F3000\nT3 M6\nG1 X9\nG0 Z5\nM30\n");
     Emulator emulator(port, {"--speed", "20"});
@@ -102,7 +116,7 @@ TEST_F(SendToolChange, NeedsASensorThatItsMachineCanReach) {
     EXPECT_EQ(with({"--tool-change", "stop", "--tool-sensor", "1,2,3,4"}).exit_code, 2);
     EXPECT_THAT(with({"--tool-change", "macro=" + (scratch / "none.nc").string()}).err, HasSubstr("none.nc"));
     const Ended ended =
-        with({"--trust-position", "--tool-change", "probe", "--tool-sensor", "-10,-10,-2,-50"});
+        with({"--keys", "--trust-position", "--tool-change", "probe", "--tool-sensor", "-10,-10,-2,-50"});
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("the tool sensor needs a machine that homes"));
     EXPECT_TRUE(records().empty()) << "nothing was sent";

@@ -171,6 +171,12 @@ TEST(Usage, HelpSpeaksPlainly) {
         static const std::regex of_names(R"([a-z]\|[a-z][a-z|-]* \([^)]*default [0-9])");
         EXPECT_FALSE(std::regex_search(help, found, of_names))
             << testing::PrintToString(command) << ": " << found.str();
+        static const std::regex of_some_text("--(out|machine|format|tool|unit|surface) TEXT");
+        EXPECT_FALSE(std::regex_search(help, found, of_some_text))
+            << testing::PrintToString(command) << ": " << found.str();
+        static const std::regex number_of_list(R"(--[a-z-]+ NUMBER(?: \.\.\.)?\s+[^\n]*: X,Y)");
+        EXPECT_FALSE(std::regex_search(help, found, number_of_list))
+            << testing::PrintToString(command) << ": " << found.str();
         static const std::regex of_range(R"(\(([-0-9.]+) to ([-0-9.]+); default ([-0-9.]+))");
         for (std::sregex_iterator at(help.begin(), help.end(), of_range), end; at != end; ++at) {
             const double value = std::stod((*at)[3]);
@@ -203,12 +209,23 @@ TEST(Usage, AnOptionThatTheDriverDoesNotHaveIsRefused) {
                        "the linuxcnc driver does not support --power");
 }
 
+TEST(Usage, HelpIsACommandToo) {
+    EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+    EXPECT_EQ(run({"help", "arm", "reach"}).out, run({"arm", "reach", "--help"}).out);
+    EXPECT_EQ(run({"help", "arm", "reach"}).exit_code, 0);
+}
+
 // "plann" was read as a file of that name.
 TEST(Usage, AMistypedCommandOrOptionIsToldWhatWasMeant) {
     expect_wrong_usage({"plann"}, "'plann' is neither a command nor a file (did you mean 'plan'?)");
     expect_wrong_usage({"paln", dome_project, "--out", "x"}, "did you mean 'plan'?");
     expect_wrong_usage({"plot", "toolpaht", "a.plt", "--out", "x"}, "did you mean 'toolpath'?");
     expect_wrong_usage({"plan", dome_project, "--ot", "x"}, "did you mean '--out'?");
+    expect_wrong_usage({"plans", dome_project},
+                       "'plans' is neither a command nor a file (did you mean 'plan'?)");
+    expect_wrong_usage({"gcod", "check", "x.ngc"}, "'gcod' is neither a command nor a file (did you mean");
+    expect_wrong_usage({"arm", "recah", "x.ngc"}, "'arm recah' is not a command (did you mean 'reach'?)");
+    expect_wrong_usage({"version"}, "'version' is neither a command nor a file ('millwright --help' lists");
     const Ended far = run({"nonsense.ngc"});
     EXPECT_EQ(far.exit_code, 1);
     EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;

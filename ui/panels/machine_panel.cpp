@@ -163,6 +163,25 @@ void MachinePanel::draw_mode(Ui& ui, const FrameState& now, ActionQueue& ask) co
     }
 }
 
+namespace {
+
+/// Why a job holds on a machine that is not connected, and so has no messages of a controller.
+void wait_banner(Ui& ui, const FrameState& now) {
+    if (!now.job.running || !now.job.report || now.connection.connected()) {
+        return;
+    }
+    const drivers::DriverStatus& status = now.job.report->driver;
+    if (status.state == drivers::DriverState::holding && !status.message.empty()) {
+        (void)widgets::banner(ui,
+                              "waiting",
+                              {widgets::Severity::warning,
+                               fmt::format("Job waiting: {}. Press Resume to continue.", status.message),
+                               {}});
+    }
+}
+
+} // namespace
+
 /// What acts on a running job.
 void MachinePanel::draw_stops(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     {
@@ -216,6 +235,7 @@ void MachinePanel::draw_job(Ui& ui, const FrameState& now, ActionQueue& ask) con
         (void)widgets::banner(ui, "axes", {widgets::Severity::warning, axes.reason, {}});
     }
     (void)tool_change_banner(ui, now);
+    wait_banner(ui, now);
     draw_findings(ui, now); // below the buttons, which stay where they are whatever is found
     draw_progress(ui, now, ask);
 }

@@ -61,6 +61,25 @@ bool has_room(std::string_view menu, Workspace workspace) {
                                : true;
 }
 
+/// Of the menus of a workspace with what is between them, px.
+float menus_width(const Ui& ui, Workspace workspace) {
+    float width = 0.0F;
+    for (const std::string_view title : menus) {
+        width +=
+            has_room(title, workspace) ? widgets::menu_width(ui, title) + ui.px(widgets::gaps::small) : 0.0F;
+    }
+    return width;
+}
+
+/// The tabs keep their places where a workspace has fewer menus.
+float room_for_other_menus(const Ui& ui, Workspace workspace) {
+    float most = 0.0F;
+    for (int n = 0; n < actions::workspace_count; ++n) {
+        most = std::max(most, menus_width(ui, static_cast<Workspace>(n)));
+    }
+    return most - menus_width(ui, workspace);
+}
+
 /// Actions that are behind one row of their menu.
 struct Submenu {
     std::string_view id, label;
@@ -134,7 +153,7 @@ void MenuBar::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     ui.move_by(ui.px(left), ui.px(top));
     draw_menus(ui, now, ask);
     ui.beside();
-    ui.move_by(0.0F, -ui.px(tabs_above));
+    ui.move_by(room_for_other_menus(ui, now.view_state.workspace), -ui.px(tabs_above));
     const bool narrow = ui.rest().w < ui.px(roomy);
     const float tools = ui.px(narrow ? narrow_tools : tools_width);
     auto shown = workspaces;

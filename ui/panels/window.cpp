@@ -69,6 +69,20 @@ float actions::PaneSizes::*lower_size(const actions::ViewState& view_state) {
     }
 }
 
+/// Sizes are those of a window of 1280 x 1000 px at scale 1: a larger one gives more to texts and plots.
+/// `side`: width or height of the window, px at scale 1.
+float growth(float actions::PaneSizes::*size, float side) {
+    using actions::PaneSizes;
+    constexpr float most = 1.6F, usual_width = 1280.0F, usual_height = 1000.0F;
+    constexpr std::array texts{&PaneSizes::listing, &PaneSizes::code};
+    constexpr std::array plots{
+        &PaneSizes::lower, &PaneSizes::processor, &PaneSizes::plot_lower, &PaneSizes::arm_lower};
+    if (std::ranges::find(texts, size) != texts.end()) {
+        return std::clamp(side / usual_width, 1.0F, most);
+    }
+    return std::ranges::find(plots, size) != plots.end() ? std::clamp(side / usual_height, 1.0F, most) : 1.0F;
+}
+
 float smallest_middle(const actions::ViewState& view_state) {
     return view_state.workspace == Workspace::processor ? smallest_diagram : smallest_view;
 }
@@ -128,14 +142,17 @@ Window::layout(const Ui& ui, const actions::ViewState& view_state, float width, 
     const float bottom = height - ui.px(status_height);
     // Sizes may be those of a larger window: the view keeps its room, and the left side gives more of it.
     const float wanted_right = sizes.inspector_shown ? ui.px(sizes.inspector) : 0.0F;
-    const float wanted_left = sizes.outline_shown ? ui.px(sizes.*left_size(view_state)) : 0.0F;
+    const auto grown = [&](float actions::PaneSizes::*size, float side) {
+        return ui.px(sizes.*size) * growth(size, side / ui.px(1.0F));
+    };
+    const float wanted_left = sizes.outline_shown ? grown(left_size(view_state), width) : 0.0F;
     const float missing =
         std::max(0.0F, wanted_left + wanted_right + ui.px(smallest_middle(view_state)) - width);
     const float left =
         std::max(0.0F, wanted_left - std::round((wanted_right > 0.0F ? 0.7F : 1.0F) * missing));
     const float right = std::max(0.0F, wanted_right - (missing - (wanted_left - left)));
     const float high = std::max(0.0F, height - ui.px(smallest_view + timeline_height + menu_height));
-    const float lower = sizes.lower_shown ? std::min(ui.px(sizes.*lower_size(view_state)), high) : 0.0F;
+    const float lower = sizes.lower_shown ? std::min(grown(lower_size(view_state), height), high) : 0.0F;
     const float emergency = ui.px(emergency_width);
     const float middle_top = top + s;
     const float middle_bottom = bottom - s - lower;
@@ -349,10 +366,12 @@ void Window::draw_splitters(Ui& ui, const FrameState& now, const Layout& place, 
         if (const auto dragged =
                 widgets::splitter(ui, id, {bar, side, now_px, ui.px(min), std::max(ui.px(min), max)})) {
             const float unit = ui.px(1.0F);
+            const float times = growth(size, (side == widgets::SizeOf::below ? height : width) / unit);
+            const float left_times = growth(left_size(now.view_state), width / unit);
             // A window that is too small for all sizes shows smaller ones; they hold from now on.
             ask_.show([size,
-                       value = *dragged / unit,
-                       left = place.outline.w / unit,
+                       value = *dragged / unit / times,
+                       left = place.outline.w / unit / left_times,
                        right = place.inspector.w / unit](actions::ViewState& view_state) {
                 if (view_state.panes.outline_shown) {
                     view_state.panes.*left_size(view_state) = left;

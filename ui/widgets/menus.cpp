@@ -13,7 +13,7 @@ namespace millwright::widgets {
 
 namespace {
 
-constexpr float menu_width = 360.0F;
+constexpr float list_width = 360.0F;
 constexpr float switches_width = 220.0F;
 constexpr float mark_width = 30.0F; // left of the words: a tick or an eye
 
@@ -31,7 +31,7 @@ Guard begin_list(Ui& ui,
                  std::string_view id,
                  const std::string& popup,
                  const std::optional<ImVec2>& corner,
-                 float width = menu_width,
+                 float width = list_width,
                  Stay stay = Stay::open) {
     const float pad = ui.px(gaps::tiny);
     ImGuiStorage& heights = *ImGui::GetStateStorage();
@@ -65,13 +65,16 @@ Guard begin_list(Ui& ui,
 
 } // namespace
 
+float menu_width(const Ui& ui, std::string_view label) {
+    return std::ceil(text_width(ui.look().fonts.text, label) + ui.px(20.0F));
+}
+
 Guard menu(Ui& ui, std::string_view id, std::string_view label) {
     const std::string own = ui.path(id);
     const std::string popup = own + "@menu";
     Rect place;
     {
-        const float width = std::ceil(text_width(ui.look().fonts.text, label) + ui.px(20.0F));
-        const Slot slot(ui, width, ui.px(gaps::row));
+        const Slot slot(ui, menu_width(ui, label), ui.px(gaps::row));
         place = slot.rect();
         const Press now = press(ui, own, place);
         const bool open = ImGui::IsPopupOpen(popup.c_str());
@@ -117,7 +120,7 @@ Guard submenu(Ui& ui, std::string_view id, std::string_view label) {
                       id,
                       popup,
                       ImVec2(corner.x + size.x, row.y - ui.px(gaps::tiny)),
-                      menu_width,
+                      list_width,
                       in_menu && !on_row ? Stay::close : Stay::open);
 }
 

@@ -10,6 +10,8 @@ namespace millwright::widgets {
 /// A word that opens its menu below; put several side by side with beside(). While one is open the mouse
 /// opens its neighbours without a click. Draw the items if the guard is true. Enters the scope `id`.
 Guard menu(Ui& ui, std::string_view id, std::string_view label);
+/// Pixels that the word of a menu takes.
+[[nodiscard]] float menu_width(const Ui& ui, std::string_view label);
 
 /// A row of an open menu that opens a list at its right, by a click or when the mouse comes over it. Draw the
 /// items if the guard is true. Enters the scope `id`.

@@ -1,6 +1,7 @@
 #include "core/exchange/grid_surface.h"
 
 #include "core/exchange/cloud_fit.h"
+#include "core/geometry/bspline_surface.h"
 #include "tests/support/reason.h"
 
 #include <gmock/gmock.h>
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace millwright::exchange {
 namespace {
@@ -69,6 +71,25 @@ TEST(GridSurface, GoesThroughRowsOfAnyLength) {
         EXPECT_EQ(made.face.rows, rows <= most_points_of_one_span ? 1 : rows - 3);
         EXPECT_EQ(made.face.columns, columns <= most_points_of_one_span ? 1 : columns - 3);
     }
+}
+
+TEST(GridSurface, OfSeveralSpansIsOneSurfaceOfTheSamePatches) {
+    const GridSurface made = surface_through(
+        grid_of(8, 5, [](double x, double y) { return 5.0 * std::sin(0.1 * x) * std::cos(0.07 * y); }),
+        {},
+        {});
+    ASSERT_TRUE(made.face.bspline);
+    const geometry::BsplineSurface whole(*made.face.bspline);
+    const std::vector<double> u = geometry::span_ends(made.face.bspline->knots_u);
+    ASSERT_EQ(u.size(), 6U);
+    for (int row = 0; row < made.face.rows; ++row) {
+        const double begin = u[static_cast<std::size_t>(row)], end = u[static_cast<std::size_t>(row) + 1];
+        for (const double share : {0.0, 0.3, 1.0}) {
+            const Vec3 of_patch = made.face.patches[static_cast<std::size_t>(row)].position(share, 0.4);
+            EXPECT_LT((whole.position(begin + share * (end - begin), 0.4) - of_patch).norm(), 1e-10) << row;
+        }
+    }
+    EXPECT_FALSE(surface_through(grid_of(6, 2, [](double, double) { return 0.0; }), {}, {}).face.bspline);
 }
 
 /// Patches of a C2 spline meet with their first and second derivatives, each over its own length of

@@ -1,4 +1,5 @@
 #include "core/base/files.h"
+#include "core/geometry/bspline_surface.h"
 #include "core/plan/plan.h"
 #include "core/project/imported_surface.h"
 #include "tests/support/reason.h"
@@ -9,6 +10,8 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace millwright::project {
 namespace {
@@ -62,12 +65,23 @@ TEST_F(ImportedPoints, FewRowsAreOnePatchThroughThem) {
     EXPECT_LT(elevated.points->deviation.max, 1e-9) << "of a higher degree it is the same surface";
 }
 
-TEST_F(ImportedPoints, ManyRowsAreARasterOfPatchesOrOnePatchNearThem) {
+// Only the first of 6 x 9 patches was machined.
+TEST_F(ImportedPoints, ManyRowsAreOneSurfaceThroughThemOrOnePatchNearThem) {
     const ImportedSurface made = imported(saddle(9, 12));
-    EXPECT_EQ(made.surface.patches.size(), 6U * 9U);
-    EXPECT_THAT(made.notes,
-                ::testing::ElementsAre(HasSubstr("6 x 9 patches and only the first is machined")));
+    EXPECT_TRUE(made.surface.patches.empty());
+    EXPECT_THAT(made.notes, ::testing::IsEmpty());
     EXPECT_LT(made.points->deviation.max, 1e-9);
+    ASSERT_TRUE(made.surface.face);
+    EXPECT_TRUE(made.surface.face->trim.everything());
+    const geometry::BsplineSurface surface(made.surface.face->net);
+    EXPECT_EQ(surface.spans(), std::pair(6, 9));
+    const std::vector<Vec3>& points = made.points->points;
+    EXPECT_LT((surface.position(0.0, 0.0) - points.front()).norm(), 1e-9);
+    EXPECT_LT((surface.position(1.0, 0.0) - points[8 * 12]).norm(), 1e-9);
+    EXPECT_LT((surface.position(1.0, 1.0) - points.back()).norm(), 1e-9);
+    Project part;
+    part.surface = made.surface;
+    EXPECT_THAT(faults_of(part), ::testing::IsEmpty());
     ImportChoice one;
     one.degrees = FitDegrees{7, 3};
     const ImportedSurface near = imported(saddle(9, 12), one);

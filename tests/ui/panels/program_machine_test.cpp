@@ -72,6 +72,21 @@ TEST(ProgramOnItsMachine, ShowsEveryAxisWhereTheCursorIs) {
     }
 }
 
+// It held at the M6, and only the word "holding" was seen.
+TEST(ProgramOnItsMachine, SaysForWhichToolASimulatedJobWaits) {
+    Person person;
+    open_for(person, "router-xyz", "G21 G90 G94\nT3 M6 (6 mm end mill)\nG0 X5\nM2\n");
+    person.app().run("view.machine");
+    person.frames(3);
+    EXPECT_FALSE(person.sees("inspector/job/waiting"));
+    person.app().run("machine.run");
+    ASSERT_TRUE(person.live_until([&] { return person.sees("inspector/job/waiting"); }));
+    person.keep("waits-for-tool");
+    person.click("inspector/job/machine_resume");
+    EXPECT_TRUE(person.live_until([&] { return !person.app().look().job.running; }));
+    EXPECT_FALSE(person.sees("inspector/job/waiting"));
+}
+
 TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     Person person;
     open_for(person, "ac-table", five_axes);

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 namespace millwright::panels {
 namespace {
 
@@ -60,6 +63,31 @@ TEST(ViewPanel, FitsAnotherProjectOnceItsOwnSurfaceIsThere) {
         const widgets::Point at = person.place(std::string("view/") + corner).centre();
         EXPECT_TRUE(view.contains(at)) << corner;
     }
+}
+
+/// How far right a control point lies, from the buttons of the view; below 0: beside them.
+float beyond_the_buttons(Person& person) {
+    float most = -1e9F;
+    for (const auto& [path, seen] : person.desktop().ui().places().all()) {
+        if (path.starts_with("view/control_point(")) {
+            most = std::max(most, seen.rect.centre().x - person.place("view/fit").x);
+        }
+    }
+    return most;
+}
+
+// The part went below the buttons when a pane beside it grew.
+TEST(ViewPanel, IsFittedAgainWhenItsSizeChanges) {
+    Person person;
+    person.open("assets/projects/dome.json");
+    person.frames(3);
+    EXPECT_LE(beyond_the_buttons(person), 0.0F);
+    const float wide = person.place("view").w;
+    const widgets::Point bar = person.place("splitters/inspector").centre();
+    person.drag(bar, {bar.x - 250.0F, bar.y});
+    person.frames(3);
+    EXPECT_LT(person.place("view").w, wide - 200.0F);
+    EXPECT_LE(beyond_the_buttons(person), 0.0F);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace millwright::panels {
@@ -106,6 +107,53 @@ TEST(WorkspacePanes, EachKeepsWhereItIsScrolledTo) {
     person.press_key(toolpath_key);
     person.frames(3);
     EXPECT_FLOAT_EQ(person.place("inspector/error").y, scrolled);
+}
+
+// They moved aside by up to 50 px where a workspace has fewer menus, away from under the mouse.
+TEST(WorkspaceTabs, StayInPlaceInEveryWorkspace) {
+    for (const int width : {1280, 1600}) {
+        Person person({width, 800});
+        const auto starts = [&] {
+            std::vector<float> result;
+            for (const char* const tab : {"design", "grid", "toolpath"}) {
+                result.push_back(person.place(std::string("menu/workspaces/") + tab).x);
+            }
+            return result;
+        };
+        const std::vector<float> first = starts();
+        for (const char* const workspace :
+             {"grid", "toolpath", "program", "machine", "processor", "plot", "arm"}) {
+            person.app().run(std::string("view.") + workspace);
+            person.frames(3);
+            EXPECT_EQ(starts(), first) << workspace << " at " << width;
+        }
+    }
+}
+
+// Lines of the program were cut at 34 characters in a window of any size.
+TEST(WorkspacePanes, TextsAndPlotsGetMoreOfALargeWindow) {
+    const auto panes = [](Person& person) {
+        person.app().run("view.program");
+        person.frames(3);
+        return std::pair{person.place("outline").w, person.place("lower").h};
+    };
+    Person usual({1280, 1000}), large({2560, 1600});
+    const auto [text, plots] = panes(usual);
+    const auto [large_text, large_plots] = panes(large);
+    EXPECT_GT(large_text, 1.5F * text);
+    EXPECT_GT(large_plots, 1.5F * plots);
+    EXPECT_FLOAT_EQ(large.place("inspector").w, usual.place("inspector").w);
+
+    const widgets::Point bar = large.place("splitters/outline").centre();
+    large.drag(bar, {bar.x - 100.0F, bar.y});
+    large.frames(3);
+    EXPECT_NEAR(large.place("splitters/outline").centre().x, bar.x - 100.0F, 1.0F)
+        << "where it was dragged to";
+    EXPECT_NEAR(large.place("lower").h, large_plots, 1.0F);
+    const widgets::Point other = large.place("splitters/inspector").centre();
+    large.drag(other, {other.x - 100.0F, other.y});
+    large.frames(3);
+    EXPECT_NEAR(large.place("splitters/outline").centre().x, bar.x - 100.0F, 1.0F);
 }
 
 } // namespace

@@ -134,7 +134,9 @@ void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
     widgets::Rect free = legends ? legends_of(frame.ui, place, frame.scene).free : place;
     const float left = free.x - place.x, below = place.bottom() - free.bottom();
     const bool legend_has_come = left > sight.left_out + 1.0F || below > sight.below_out + 1.0F;
-    if (legend_has_come && sight.camera.pose() == sight.fitted_pose) {
+    const bool resized =
+        std::abs(place.w - sight.fitted_size.x) > 1.0F || std::abs(place.h - sight.fitted_size.y) > 1.0F;
+    if ((legend_has_come || resized) && sight.camera.pose() == sight.fitted_pose) {
         sight.fitted = false; // one that goes leaves the view as it is: it may be back soon
     }
     if (!sight.fitted && !is_empty(frame.view.content())) {
@@ -144,6 +146,7 @@ void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
         fit_into(frame, place, free);
         sight.left_out = left;
         sight.below_out = below;
+        sight.fitted_size = {place.w, place.h};
     }
 }
 

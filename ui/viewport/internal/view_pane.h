@@ -61,6 +61,7 @@ private:
         std::optional<render::CameraPose> fitted_pose = std::nullopt;
         float left_out = 0.0F; ///< of the picture at its left, pixels
         float below_out = 0.0F;
+        widgets::Point fitted_size = {}; ///< of the picture that it was fitted into, pixels
     };
     /// Which camera.
     struct SightKey {
