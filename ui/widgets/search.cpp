@@ -3,6 +3,7 @@
 #include "ui/widgets/fuzzy.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/early_text.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/letters.h"
 
@@ -258,6 +259,7 @@ void Search::type_letters(Ui& ui) {
     const bool lost = !text_field_active() && !ImGui::IsAnyMouseDown() &&
                       ImGui::GetFrameCount() > keyboard_asked_at_ + soon;
     if (std::exchange(takes_keyboard_, false) || lost) {
+        await_keyboard(ui.state(), soon);
         focus_next_item();
         keyboard_asked_at_ = ImGui::GetFrameCount();
     }

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "ui/widgets/internal/draw.h"
+#include "ui/widgets/internal/early_text.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
 #include "ui/widgets/internal/wrap.h"
@@ -23,23 +24,6 @@ struct Note {
     Colour border = 0;
     Colour colour = 0;
 };
-
-/// What is typed while a called field is on its way waits until that has the keyboard: the first that it
-/// gets.
-void keep_early_text(Ui::State::EarlyText& early) {
-    if (early.until < 0) {
-        return;
-    }
-    auto& typed = ImGui::GetIO().InputQueueCharacters;
-    early.characters.insert(early.characters.end(), typed.begin(), typed.end());
-    typed.resize(0);
-    if (text_field_active()) {
-        std::ranges::for_each(early.characters, [&typed](ImWchar character) { typed.push_back(character); });
-        early = {};
-    } else if (ImGui::GetFrameCount() > early.until) {
-        early = {};
-    }
-}
 
 float shared_area(const Rect& a, const Rect& b) {
     const float w = std::min(a.right(), b.right()) - std::max(a.x, b.x);
@@ -138,7 +122,7 @@ void Ui::begin_frame() {
     state_->kept_clear.clear();
     state_->keys_claimed = false;
     state_->typing_at_begin = text_field_active();
-    keep_early_text(state_->early);
+    keep_early_text(*state_);
     state_->cut_texts.clear();
     state_->cells.clear();
     state_->widths.clear();
@@ -210,9 +194,10 @@ void Ui::focus_pane(std::string_view path) {
 }
 
 void Ui::focus_field(std::string_view path) {
-    constexpr int soon = 5;                                  // frames: its pane may have to come first
-    const auto& typed = ImGui::GetIO().InputQueueCharacters; // the first of them called the field
-    state_->early = {ImGui::GetFrameCount() + soon, {typed.begin() + std::min(typed.Size, 1), typed.end()}};
+    constexpr int soon = 5; // frames: its pane may have to come first
+    constexpr int called_it = 1;
+    state_->early = {};
+    await_keyboard(*state_, soon, called_it);
     state_->edit = {.path = std::string(path),
                     .text = {},
                     .initial = {},

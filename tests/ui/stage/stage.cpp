@@ -129,6 +129,13 @@ void Stage::key(Key key) {
     frames();
 }
 
+void Stage::key_and_type(Key key, std::string_view text) {
+    input_.keys = {key};
+    frames();
+    input_.keys = {};
+    type(text);
+}
+
 void Stage::hold_shift(bool down) {
     input_.shift = down;
 }

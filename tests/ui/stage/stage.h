@@ -57,6 +57,8 @@ public:
     void key(Key key);
     void hold_shift(bool down);
     void hold_ctrl(bool down);
+    /// `text` comes in the frame after that in which the key goes down.
+    void key_and_type(Key key, std::string_view text);
     void type(std::string_view text);
     /// Clicks a field, replaces its text, does not commit.
     void fill_in(std::string_view path, std::string_view text);

@@ -34,6 +34,46 @@ TEST(Keyboard, SpacePressesWhatTheArrowsReached) {
     EXPECT_EQ(second, 1);
 }
 
+// The first letter of a line was lost where Enter and it came in frames that follow each other.
+TEST(Keyboard, ALineThatFollowsEnterAtOnceIsWhole) {
+    std::vector<std::string> sent;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("main", whole_screen);
+        if (const auto line = ui.command_line("line", "Line", {})) {
+            sent.push_back(*line);
+        }
+    });
+    stage.frames(2);
+    stage.fill_in("main/line", "OPEN PLC 5");
+    for (const char* text : {"CLEAR", "P1=7"}) {
+        stage.key_and_type(Key::enter, {text, 1});
+        EXPECT_TRUE(stage.ui().is_typing()) << "or the next keys would be shortcuts";
+        stage.type(text + 1);
+    }
+    stage.key(Key::enter);
+    EXPECT_EQ(sent, (std::vector<std::string>{"OPEN PLC 5", "CLEAR", "P1=7"}));
+}
+
+TEST(Keyboard, ANumberThatFollowsEnterAtOnceIsWholeInTheNextField) {
+    double x = 0.0;
+    double y = 0.0;
+    Stage stage([&](Ui& ui) {
+        const auto pane = ui.pane("main", whole_screen);
+        const auto goes_on = ui.enter_goes_on();
+        x = ui.number(x, {.id = "x", .label = "X", .unit = "mm", .tip = "", .min = -99.0, .max = 99.0})
+                .value_or(x);
+        y = ui.number(y, {.id = "y", .label = "Y", .unit = "mm", .tip = "", .min = -99.0, .max = 99.0})
+                .value_or(y);
+    });
+    stage.frames(2);
+    stage.fill_in("main/x", "12");
+    stage.key_and_type(Key::enter, "-");
+    stage.type("34");
+    stage.key(Key::enter);
+    EXPECT_DOUBLE_EQ(x, 12.0);
+    EXPECT_DOUBLE_EQ(y, -34.0);
+}
+
 // Down from the option in force to the next one; the list stayed open, and began above all.
 TEST(Keyboard, EnterTakesTheOptionThatTheArrowsReached) {
     int now = 1;

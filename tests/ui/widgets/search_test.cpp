@@ -107,6 +107,24 @@ TEST_F(SearchPalette, AFewLettersAndEnterRunTheBest) {
     EXPECT_FALSE(search.is_open());
 }
 
+// On a slow screen a word is typed before the field has the keyboard: Enter took the first of all.
+TEST_F(SearchPalette, WhatIsTypedWhileItOpensCounts) {
+    for (const int frames : {0, 1, 2}) {
+        chosen.clear();
+        search.close();
+        stage.frames(2);
+        search.open();
+        if (frames > 0) {
+            stage.frames(frames);
+            EXPECT_TRUE(stage.ui().is_typing()) << "or the keys would be shortcuts";
+        }
+        stage.type("sav");
+        stage.type("as");
+        stage.key(Key::enter);
+        EXPECT_EQ(chosen, (std::vector<std::ptrdiff_t>{2})) << frames << " frames after it was opened";
+    }
+}
+
 TEST_F(SearchPalette, TheArrowKeysChoose) {
     stage.type("save");
     stage.key(Key::down);

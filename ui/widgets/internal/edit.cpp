@@ -1,5 +1,6 @@
 #include "ui/widgets/internal/edit.h"
 
+#include "ui/widgets/internal/early_text.h"
 #include "ui/widgets/internal/imgui_inside.h"
 
 #include <imgui_stdlib.h>
@@ -92,6 +93,7 @@ Typed type_into(Ui& ui, const EditBox& box, const Rect& typing, std::string text
                 .initial = text,
                 .called = false,
                 .kept_until = ImGui::GetFrameCount() + frames_to_refocus};
+        await_keyboard(ui.state(), frames_to_refocus);
         focus_next_item();
     }
     const std::string id = "##" + box.path;
@@ -111,8 +113,9 @@ void refuse(Ui& ui, const std::string& path, std::string reason) {
 }
 
 /// Enter took the keyboard away from the box that was drawn last.
-void take_keyboard_again(Ui::State::Edit& edit) {
-    edit.kept_until = ImGui::GetFrameCount() + frames_to_refocus;
+void take_keyboard_again(Ui& ui) {
+    ui.state().edit.kept_until = ImGui::GetFrameCount() + frames_to_refocus;
+    await_keyboard(ui.state(), frames_to_refocus);
     ImGui::SetKeyboardFocusHere(-1);
 }
 
@@ -127,7 +130,7 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
         refuse(ui, box.path, reason);
         if (typed.entered) {
             edit.text = text;
-            take_keyboard_again(edit);
+            take_keyboard_again(ui);
             return std::nullopt;
         }
         if (box.keeps_refused) {
@@ -141,12 +144,12 @@ std::optional<std::string> finish(Ui& ui, const EditBox& box, const Typed& typed
     ui.state().chain.goes_on = ui.state().chain.open && typed.entered && reason.empty();
     if (box.asks_again && typed.entered && reason.empty()) {
         edit = {.path = box.path, .text = text, .initial = text};
-        take_keyboard_again(edit);
+        take_keyboard_again(ui);
         return text;
     }
     if (box.enter_only && typed.entered) {
         edit.path = box.path;
-        take_keyboard_again(edit);
+        take_keyboard_again(ui);
     }
     return reason.empty() && changed && !reverted ? std::optional(text) : std::nullopt;
 }
