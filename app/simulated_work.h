@@ -1,10 +1,10 @@
 // What `millwright simulate` simulates: a project's program or a G-code file, with machine, tools and stock.
 #pragma once
 
-#include "app/part_surface.h"
 #include "core/base/progress.h"
 #include "core/gcode/reader_settings.h"
 #include "core/kinematics/machine_model.h"
+#include "core/plan/part_surface.h"
 #include "core/program/program.h"
 #include "core/simulation/collision_bodies.h"
 #include "core/simulation/simulation.h"
@@ -46,8 +46,8 @@ struct SimulatedWork {
     std::vector<std::string> tool_texts; ///< one per tool, as it was given
     simulation::Stock stock;
     std::string stock_text;
-    std::vector<std::string> warnings; ///< a sentence each
-    std::optional<PartSurface> part{}; ///< what is left is compared with
+    std::vector<std::string> warnings;       ///< a sentence each
+    std::optional<plan::PartSurface> part{}; ///< what is left is compared with
     std::filesystem::path machine_file{};
     std::vector<simulation::CollisionBody> bodies{}; ///< of machine, fixtures, part and stock
 };
