@@ -9,10 +9,10 @@
 #include "app/simulation/simulated_work.h"
 #include "app/simulation/simulation_report.h"
 #include "core/base/error.h"
-#include "core/base/memory.h"
 #include "core/base/parallel.h"
 #include "core/simulation/cut_mesh.h"
 #include "core/simulation/engagement.h"
+#include "core/simulation/resolution.h"
 #include "ui/render/picture.h"
 #include "ui/viewport/solid_picture.h"
 
@@ -31,34 +31,11 @@ namespace millwright::app {
 
 namespace {
 
-constexpr double bytes_in_megabyte = 1e6;
 constexpr std::size_t most_triangles = 400'000;
 constexpr render::PixelSize simulation_picture_size{1280, 800};
 
 /// Of the files of a simulation, of which a folder has one set.
 constexpr std::string_view simulation_kind = "simulation";
-
-/// So many cells along the longest edge of the stock, where nothing is said.
-constexpr double usual_cells = 400.0;
-
-std::size_t most_field_bytes(const SimulateOptions& options) {
-    constexpr double most_bytes =
-        1e15; // beyond it a number of bytes is not exact, and no memory is that large
-    const auto wanted = static_cast<std::size_t>(std::min(options.memory_mb * bytes_in_megabyte, most_bytes));
-    constexpr std::size_t share = 5; // of the memory that is free four fifths
-    const std::optional<std::size_t> free = free_memory();
-    return free ? std::min(wanted, *free / share * (share - 1)) : wanted;
-}
-
-/// As fine as the memory allows, but no finer than usual.
-double resolution_of(const SimulateOptions& options, const simulation::Stock& stock) {
-    if (options.resolution) {
-        return *options.resolution;
-    }
-    const Box3 box = simulation::bounds(stock);
-    return std::max(box.sizes().maxCoeff() / usual_cells,
-                    1.05 * simulation::pitch_within(box, most_field_bytes(options)));
-}
 
 /// Cut faces in the colour of a fresh cut, the stock's own in gray.
 std::vector<std::array<std::uint8_t, 3>> mesh_colors(const simulation::CutMesh& mesh) {
@@ -83,8 +60,8 @@ void add_picture(OutputSet& set, const std::string& name, const viewport::Colore
     }
 }
 
-void add_part(OutputSet& set, const PartSurface& part, const ComparedPart& compared) {
-    const auto colors = deviation_colors(part, compared.deviations, compared.tolerance);
+void add_part(OutputSet& set, const plan::PartSurface& part, const ComparedPart& compared) {
+    const auto colors = plan::deviation_colors(part, compared.deviations, compared.tolerance);
     set.files.push_back({"part.ply", simulation::ply_of(part.corners, part.triangles, colors)});
     add_picture(
         set,
@@ -121,6 +98,17 @@ std::optional<ComparedPart> compared_part(const SimulatedWork& work,
     return compared;
 }
 
+simulation::SimulationInput input_of(const SimulatedWork& work, const SimulateOptions& options) {
+    const std::size_t most_bytes = simulation::field_memory(options.memory_mb);
+    const double usual = simulation::usual_resolution(simulation::bounds(work.stock), most_bytes);
+    return {.program = work.program,
+            .machine = work.machine,
+            .tools = work.tools,
+            .stock = work.stock,
+            .resolution = options.resolution.value_or(usual),
+            .most_bytes = most_bytes};
+}
+
 int simulate(const SimulateOptions& options) {
     const Interrupt interrupt;
     expect_inputs_kept(options.out,
@@ -139,12 +127,7 @@ int simulate(const SimulateOptions& options) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, interrupt.token());
     const auto begin = std::chrono::steady_clock::now();
-    const simulation::SimulationInput input{.program = work.program,
-                                            .machine = work.machine,
-                                            .tools = work.tools,
-                                            .stock = work.stock,
-                                            .resolution = resolution_of(options, work.stock),
-                                            .most_bytes = most_field_bytes(options)};
+    const simulation::SimulationInput input = input_of(work, options);
     progress.report(0.0, "Cutting");
     const simulation::Simulation found =
         with_place(work, [&] { return simulation::simulate(input, progress.part(0.0, 0.7)); });

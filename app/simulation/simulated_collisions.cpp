@@ -5,7 +5,6 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/exchange/mesh_file.h"
-#include "core/geometry/mesh.h"
 #include "core/kinematics/machine_solids.h"
 #include "core/project/json_text.h"
 #include "core/simulation/spec_text.h"
@@ -28,7 +27,6 @@ using nlohmann::ordered_json;
 using simulation::BodyRole;
 using simulation::Collision;
 using simulation::CollisionReport;
-using simulation::CollisionTriangles;
 using simulation::Finding;
 using simulation::FindingKind;
 
@@ -116,10 +114,6 @@ std::string moves_text(const Collision& collision) {
                : fmt::format(", through {} moves up to line {}", collision.moves, collision.last_line);
 }
 
-simulation::CollisionTriangles triangles_of(const geometry::Mesh& mesh) {
-    return {mesh.positions, mesh.triangles};
-}
-
 } // namespace
 
 bool is_in_stock(const Finding& finding) {
@@ -146,33 +140,6 @@ void add_part(const std::filesystem::path& file, SimulatedWork& work, const Prog
                                    BodyRole::part,
                                    {std::move(read.mesh.points), std::move(read.mesh.triangles)},
                                    closed));
-}
-
-void add_faces(const project::SurfaceInput& input, const geometry::Surface& surface, SimulatedWork& work) {
-    constexpr int steps = 100;
-    simulation::CollisionTriangles others;
-    const auto parts = surface.parts();
-    for (std::size_t n = 0; n < parts.size(); ++n) {
-        const bool machined = input.face || static_cast<int>(n) == input.machined_patch;
-        const geometry::Trim trim = machined ? input.machined_trim() : input.trim(static_cast<int>(n));
-        const geometry::Mesh mesh = trim.everything()
-                                        ? geometry::tessellate(*parts[n], steps, steps)
-                                        : geometry::tessellate(*parts[n], trim, steps, steps).mesh;
-        if (machined) {
-            work.bodies.push_back(simulation::collision_body(
-                work.machine, "part", simulation::BodyRole::cut_faces, triangles_of(mesh), false));
-            continue;
-        }
-        const int first = static_cast<int>(others.points.size());
-        others.points.insert(others.points.end(), mesh.positions.begin(), mesh.positions.end());
-        for (const auto& [a, b, c] : mesh.triangles) {
-            others.triangles.push_back({a + first, b + first, c + first});
-        }
-    }
-    if (!others.triangles.empty()) {
-        work.bodies.push_back(simulation::collision_body(
-            work.machine, "other faces of the part", simulation::BodyRole::part, std::move(others), false));
-    }
 }
 
 void take_bodies(const SimulateOptions& options, SimulatedWork& work, const Progress& progress) {

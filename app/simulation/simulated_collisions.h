@@ -3,8 +3,6 @@
 #pragma once
 
 #include "app/simulation/simulated_work.h"
-#include "core/geometry/surface.h"
-#include "core/project/project.h"
 #include "core/simulation/collision.h"
 #include "core/simulation/simulation.h"
 
@@ -26,9 +24,6 @@ struct FixtureText {
 
 /// The part of a mesh file. Throws Error, Cancelled.
 void add_part(const std::filesystem::path& file, SimulatedWork& work, const Progress& progress);
-
-/// The part of a project: the machined face, whose gouges the comparison has, and the others.
-void add_faces(const project::SurfaceInput& input, const geometry::Surface& surface, SimulatedWork& work);
 
 /// The bodies of the machine as the window draws them, and the fixtures. Throws Error with the file for an
 /// open fixture, one that looks inwards, and one that lies in the table.

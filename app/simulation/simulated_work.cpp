@@ -9,11 +9,11 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/exchange/mesh_file.h"
 #include "core/gcode/interpreter.h"
 #include "core/gcode_programs/machine_program.h"
-#include "core/geometry/mesh.h"
 #include "core/kinematics/machine_file.h"
+#include "core/plan/part_bodies.h"
+#include "core/plan/part_stock.h"
 #include "core/project/assets.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
@@ -24,7 +24,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <memory>
 #include <utility>
 
 namespace millwright::app {
@@ -146,32 +145,9 @@ void throw_first_of(const std::vector<Diagnostic>& errors) {
     }
 }
 
-std::shared_ptr<const simulation::MeshStock>
-mesh_from(const fs::path& file, const Vec3& shift, const Progress& progress) {
-    exchange::MeshFile read = exchange::read_mesh(file, 1.0, progress);
-    auto mesh = std::make_shared<simulation::MeshStock>();
-    mesh->points = std::move(read.mesh.points);
-    mesh->triangles = std::move(read.mesh.triangles);
-    for (Vec3& point : mesh->points) {
-        point += shift;
-    }
-    if (const std::string fault = simulation::fault_of(simulation::Stock(mesh)); !fault.empty()) {
-        throw Error(fault, file, "repair it in the program that it comes from");
-    }
-    mesh->is_checked = true;
-    return mesh;
-}
-
-void take_stock(const std::string& text, SimulatedWork& work, const Progress& progress) {
-    simulation::StockText parsed = simulation::parse_stock(text);
-    if (parsed.stock) {
-        work.stock = *parsed.stock;
-        work.stock_text = simulation::to_text(work.stock);
-    } else {
-        work.stock = mesh_from(parsed.mesh_file, parsed.shift, progress);
-        work.stock_text = fmt::format(
-            "{} of {}", simulation::to_text(work.stock), printable(parsed.mesh_file.filename().string()));
-    }
+void take_stock(const plan::NamedStock& stock, SimulatedWork& work) {
+    work.stock = stock.stock;
+    work.stock_text = stock.text;
 }
 
 gcode::ReaderSettings reader_settings(const SimulateOptions& options,
@@ -213,7 +189,7 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     }
     expect_different_numbers(tools);
     take_flutes(options.flutes, tools);
-    take_stock(options.stock, work, progress);
+    take_stock(plan::stock_from(options.stock, progress), work);
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
     gcode::MachineProgramBuilder builder(work.machine, options.file, making);
@@ -243,17 +219,6 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
         }
     }
     return work;
-}
-
-Box3 box_of(const geometry::Surface& surface) {
-    Box3 box;
-    constexpr int steps = 60;
-    for (const geometry::ParametricSurface* part : surface.parts()) {
-        for (const Vec3& point : geometry::tessellate(*part, steps, steps).positions) {
-            box.extend(point);
-        }
-    }
-    return box;
 }
 
 /// The part's box and so much more on every side, mm.
@@ -316,8 +281,11 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     work.machine_file = project::machine_path(
         opened.project, fs::absolute(options.file).parent_path(), project::assets_folder());
     if (options.part.empty()) {
-        work.part = part_surface(*plan.cutting_setup);
-        add_faces(opened.project.surface, *plan.surface, work);
+        work.part = plan::part_surface(*plan.cutting_setup);
+        for (simulation::CollisionBody& body :
+             plan::face_bodies(work.machine, opened.project.surface, *plan.surface)) {
+            work.bodies.push_back(std::move(body));
+        }
     }
     if (!options.flutes.empty()) {
         std::vector<NamedTool> tools{{std::nullopt, *tool.cutter, {}}};
@@ -328,16 +296,9 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     for (std::size_t n = 0; n < work.program.blocks.size(); ++n) {
         work.program.blocks[n].source_line = plan.listing->line_of_block[n];
     }
-    if (options.stock.empty()) {
-        const Box3 box = box_of(*plan.surface);
-        const Vec3 more = Vec3::Constant(stock_allowance);
-        work.stock = simulation::BoxStock{box.min() - more, box.max() + more};
-        work.stock_text = fmt::format("{}: the box of the surface and {:g} mm on every side",
-                                      simulation::to_text(work.stock),
-                                      stock_allowance);
-    } else {
-        take_stock(options.stock, work, progress);
-    }
+    take_stock(options.stock.empty() ? plan::stock_around(*plan.surface, stock_allowance)
+                                     : plan::stock_from(options.stock, progress),
+               work);
     return work;
 }
 
@@ -381,7 +342,7 @@ SimulatedWork simulated_work(const SimulateOptions& options, const std::stop_tok
     SimulatedWork work = is_project(options.file) ? work_of_project(options, stop, progress)
                                                   : work_of_program(options, progress);
     if (!options.part.empty()) {
-        work.part = part_surface(options.part, progress);
+        work.part = plan::part_surface(options.part, progress);
         add_part(options.part, work, progress);
     }
     take_bodies(options, work, progress);

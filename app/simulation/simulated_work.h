@@ -1,7 +1,6 @@
 // What `millwright simulate` simulates: a project's program or a G-code file, with machine, tools and stock.
 #pragma once
 
-#include "app/simulation/part_surface.h"
 #include "core/base/progress.h"
 #include "core/gcode/reader_settings.h"
 #include "core/kinematics/machine_model.h"
@@ -46,8 +45,8 @@ struct SimulatedWork {
     std::vector<std::string> tool_texts; ///< one per tool, as it was given
     simulation::Stock stock;
     std::string stock_text;
-    std::vector<std::string> warnings; ///< a sentence each
-    std::optional<PartSurface> part{}; ///< what is left is compared with
+    std::vector<std::string> warnings;       ///< a sentence each
+    std::optional<plan::PartSurface> part{}; ///< what is left is compared with
     std::filesystem::path machine_file{};
     std::vector<simulation::CollisionBody> bodies{}; ///< of machine, fixtures, part and stock
 };

@@ -272,15 +272,23 @@ std::vector<Deviation> deviations(const SimulationInput& input,
                                   const Simulation& found,
                                   std::span<const PartPoint> points,
                                   const Progress& progress) {
+    return deviations(input, *found.field, found.first_block, points, progress);
+}
+
+std::vector<Deviation> deviations(const SimulationInput& input,
+                                  const DexelField& field,
+                                  int first_block,
+                                  std::span<const PartPoint> points,
+                                  const Progress& progress) {
     std::vector<Deviation> result(points.size());
-    const BlockIndex index(input, found.first_block);
+    const BlockIndex index(input, first_block);
     constexpr std::ptrdiff_t points_per_chunk = 16, points_per_report = 1024;
     const std::ptrdiff_t count = std::ssize(result);
     for (std::ptrdiff_t first = 0; first < count; first += points_per_report) {
         parallel_for(std::min(points_per_report, count - first), points_per_chunk, [&](std::ptrdiff_t n) {
             progress.check();
             const auto at = static_cast<std::size_t>(first + n);
-            result[at] = deviation_at(input, *found.field, index, points[at]);
+            result[at] = deviation_at(input, field, index, points[at]);
         });
         progress.report(static_cast<double>(std::min(first + points_per_report, count)) /
                         static_cast<double>(count));

@@ -35,6 +35,13 @@ struct Deviation {
                                                 std::span<const PartPoint> points,
                                                 const Progress& progress);
 
+/// The same of the field of a Simulator that has cut the whole program, from `first_block` on.
+[[nodiscard]] std::vector<Deviation> deviations(const SimulationInput& input,
+                                                const DexelField& field,
+                                                int first_block,
+                                                std::span<const PartPoint> points,
+                                                const Progress& progress);
+
 /// The worst point of one kind.
 struct WorstDeviation {
     double height = 0.0;

@@ -96,7 +96,7 @@ public:
     [[nodiscard]] const Removal& removal() const { return *removal_; }
     [[nodiscard]] const Keyframes& keyframes() const { return keyframes_; }
 
-    Simulation finish() {
+    [[nodiscard]] Simulation found() const {
         Simulation result;
         result.first_block = state_.first_block;
         result.moves = state_.moves;
@@ -128,6 +128,11 @@ public:
         result.stock_volume = volume(input_.stock);
         const double share = uncut_ > 0.0 ? std::min(field_->volume() / uncut_, 1.0) : 0.0;
         result.left_volume = share * result.stock_volume;
+        return result;
+    }
+
+    Simulation finish() {
+        Simulation result = found();
         removal_.reset();
         result.field = std::move(field_);
         return result;
@@ -438,6 +443,10 @@ std::size_t Simulator::keyframe_count() const {
 }
 std::size_t Simulator::keyframe_bytes() const {
     return work_->keyframes().bytes();
+}
+
+Simulation Simulator::found() const {
+    return work_->found();
 }
 
 Simulation Simulator::finish() && {

@@ -38,7 +38,9 @@ public:
     [[nodiscard]] std::size_t keyframe_count() const;
     [[nodiscard]] std::size_t keyframe_bytes() const;
 
-    /// What the blocks before block() left. The field goes with it: the simulator ends.
+    /// What the blocks before block() left, without the field.
+    [[nodiscard]] Simulation found() const;
+    /// The same with the field: the simulator ends.
     [[nodiscard]] Simulation finish() &&;
 
 private:

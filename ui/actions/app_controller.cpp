@@ -8,6 +8,7 @@
 #include "ui/actions/job_source.h"
 #include "ui/actions/pending_import.h"
 #include "ui/actions/processor_workspace.h"
+#include "ui/actions/stock_workspace.h"
 #include "ui/actions/surface_export.h"
 #include "ui/actions/wanted_plan.h"
 
@@ -69,6 +70,7 @@ AppController::AppController(AppOptions options)
     pipeline_ = std::make_unique<plan::Pipeline>(plan::Folders{{}, options_.assets}, wake);
     reader_ = std::make_unique<plan::ProgramReader>(wake);
     set_up_ = std::make_unique<plan::SetUpWorker>(wake);
+    stock_ = std::make_unique<StockWorkspace>(wake);
     plot_ = std::make_unique<PlotWorkspace>(options_.assets, options_.log_folder, wake);
     import_ = std::make_unique<PendingImport>(wake);
     export_ = std::make_unique<SurfaceExport>(wake);
@@ -102,6 +104,7 @@ FrameState AppController::look() const {
             : plot_->activity().busy   ? plot_->activity()
             : reader_->activity().busy ? reader_->activity()
             : set_up_->activity().busy ? set_up_->activity()
+            : stock_->activity().busy  ? stock_->activity()
                                        : pipeline_->activity(),
             reader_->latest(),
             view_state_.workspace == Workspace::plot ? plot_->opened() : reader_->latest(),
@@ -127,7 +130,8 @@ FrameState AppController::look() const {
             queue_.problem(),
             start_->answer(),
             answer_of(*run_check_, run_wish_),
-            answer_of(*next_check_, next_wish_)};
+            answer_of(*next_check_, next_wish_),
+            *stock_};
 }
 
 void AppController::follow_project() {
@@ -262,6 +266,7 @@ bool AppController::advance(double seconds) {
     follow_queue();
     follow_next();
     arm_->news().follow(connection_->view(), connection_->driver(), view_state_);
+    stock_->follow(look(), view_state_);
     const bool armed = follow_arm(seconds);
     const bool processed = follow_processor(seconds) || armed;
     Playback& playback = view_state_.playback;
@@ -384,6 +389,9 @@ void AppController::wait_idle() {
     start_->wait_idle();
     job_recovery_->wait_idle();
     arm_->wait_idle();
+    stock_->wait_idle();
+    stock_->follow(look(), view_state_);
+    stock_->wait_idle();
 }
 
 } // namespace millwright::actions

@@ -144,6 +144,7 @@ public:
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
 
+    [[nodiscard]] StockWorkspace& stock() { return *stock_; }
     [[nodiscard]] ArmWorkspace& arm() { return *arm_; }
     /// The drawn arm does it, or the connected one. Throws Error with the reason where it cannot.
     void play_on_arm(const motion::Trajectory& motion);
@@ -275,6 +276,7 @@ private:
     std::unique_ptr<plan::Pipeline> pipeline_;
     std::unique_ptr<plan::ProgramReader> reader_;
     std::unique_ptr<plan::SetUpWorker> set_up_;
+    std::unique_ptr<StockWorkspace> stock_; ///< never null
     MachineSolids machine_solids_;
     StoredQueue queue_;                             ///< before the jobs that it hears of
     std::unique_ptr<MachineConnection> connection_; ///< before what runs on it

@@ -16,6 +16,7 @@
 #include "ui/actions/pending_import.h"
 #include "ui/actions/processor_texts.h"
 #include "ui/actions/shown_grid.h"
+#include "ui/actions/stock_workspace.h"
 #include "ui/actions/surface_export.h"
 
 #include <fmt/format.h>
@@ -151,6 +152,7 @@ void AppController::cancel_work() {
     pipeline_->cancel();
     reader_->cancel();
     set_up_->cancel();
+    stock_->cancel();
     plot_->cancel();
     if (import_->activity().busy) {
         import_->close();

@@ -11,6 +11,7 @@ Catalogue::Catalogue() {
     add_layer_actions(actions_);
     add_grid_actions(actions_);
     add_set_up_actions(actions_);
+    add_stock_actions(actions_);
     add_playback_actions(actions_);
     add_machine_actions(actions_);
     add_queue_actions(actions_);

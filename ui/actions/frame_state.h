@@ -25,6 +25,7 @@ namespace millwright::actions {
 class ArmWorkspace;
 class PendingImport;
 class ProcessorWorkspace;
+class StockWorkspace;
 struct RunCheck;
 
 /// Both null where there is none.
@@ -73,6 +74,7 @@ struct FrameState {
     std::shared_ptr<const StartCheck> start_check; ///< of ViewState::start; null before the first
     std::shared_ptr<const RunCheck> run_check;     ///< of what Run would start now; null while not known
     std::shared_ptr<const RunCheck> next_check;    ///< the same of the next job of the queue
+    const StockWorkspace& stock;                   ///< the simulation of material removal
 
     /// The connected controller moves an arm.
     [[nodiscard]] bool arm_connected() const {

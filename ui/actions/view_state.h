@@ -8,6 +8,7 @@
 #include "ui/actions/approach.h"
 #include "ui/actions/manual_settings.h"
 #include "ui/actions/start_prompt.h"
+#include "ui/actions/stock_workspace.h"
 #include "ui/render/camera.h"
 #include "ui/render/view_colors.h"
 #include "ui/render/window_place.h"
@@ -47,7 +48,8 @@ enum class LowerTab {
     motion_program,
     motion_file, ///< of the arm
     gouges,
-    assembler, ///< of the processor
+    collisions, ///< of the simulation
+    assembler,  ///< of the processor
     microprogram
 };
 
@@ -179,6 +181,7 @@ struct ViewState {
     std::shared_ptr<const KeptResult> kept; ///< null before one was
     viewport::ErrorScale error;
     SetUpView set_up;
+    StockChoice stock;
     SurfaceToolView surface_tool;
     bool four_views = false;
     Playback playback;

@@ -55,6 +55,7 @@ toolpath::SetUpPlace kept_place(const actions::KeptResult& kept, const plan::Set
 /// Nothing of the path.
 NamedScene designed_scene(const viewport::Scene& shown) {
     NamedScene designed{shown, "Designed"};
+    designed.scene.stock = nullptr; // it is of the program
     designed.scene.now.reset();
     designed.scene.layers = {
         .surface_lines = true, .floor = shown.layers.floor, .origin = shown.layers.origin};
@@ -110,6 +111,7 @@ std::optional<NamedScene> compared_scene(const FrameState& now, viewport::Scene&
     }
     NamedScene other{shown, path->name};
     other.scene.now.reset();
+    other.scene.stock = nullptr; // it is of the program
     other.scene.shown = path->path;
     if (compared.kept) {
         const auto& kept = now.view_state.kept;

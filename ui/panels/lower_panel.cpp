@@ -3,6 +3,7 @@
 #include "core/base/text.h"
 #include "ui/panels/arm_drives.h"
 #include "ui/panels/arm_motors.h"
+#include "ui/panels/collision_table.h"
 #include "ui/panels/error_table.h"
 #include "ui/panels/gouge_table.h"
 #include "ui/panels/path_series.h"
@@ -29,11 +30,12 @@ struct Tab {
     widgets::Option option;
 };
 
-constexpr std::array<Tab, 7> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
+constexpr std::array<Tab, 8> making{{{LowerTab::plots, {"plots", "Error along the path", icons::plot}},
                                      {LowerTab::motion, {"motion", "Feed and axes", icons::timer}},
                                      {LowerTab::listing, {"listing", "Listing", icons::program}},
                                      {LowerTab::compare, {"compare", "Comparison", icons::table}},
                                      {LowerTab::gouges, {"gouges", "Gouges", icons::warning}},
+                                     {LowerTab::collisions, {"collisions", "Collisions", icons::danger}},
                                      {LowerTab::jobs, {"jobs", "Job", icons::machine}},
                                      {LowerTab::log, {"log", "Log", icons::info}}}};
 constexpr std::array<Tab, 8> driving{{{LowerTab::console, {"console", "Console", icons::keyboard}},
@@ -111,6 +113,8 @@ void LowerPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
         return error_table(ui, "compare", now, ask);
     case LowerTab::gouges:
         return gouge_table(ui, now, ask);
+    case LowerTab::collisions:
+        return collision_table(ui, now, ask);
     case LowerTab::console:
         return console_.draw(ui, now, ask);
     case LowerTab::offsets:

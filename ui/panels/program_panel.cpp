@@ -6,6 +6,7 @@
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/simulation_fields.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ void ProgramPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     }
     draw_settings(ui, now, ask);
     draw_summary(ui, now, ask);
+    simulation_fields(ui, now, ask, catalogue_);
     draw_block(ui, now);
     if (const auto section = ui.section("position", "Axis positions at this block")) {
         axis_positions(ui, now);

@@ -8,6 +8,7 @@
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/panels/set_up_fields.h"
+#include "ui/panels/simulation_fields.h"
 #include "ui/panels/strategy_fields.h"
 #include "ui/panels/tool_fields.h"
 #include "ui/panels/tool_set_fields.h"
@@ -140,6 +141,7 @@ void ToolpathPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     strategy_fields(ui, now, ask);
     tool_fields(ui, now, ask);
     cut_fields(ui, now);
+    simulation_fields(ui, now, ask, catalogue_);
     draw_setup(ui, now, ask);
     set_up_fields(ui, now, ask, catalogue_);
     sequencing_fields(ui, now, ask);

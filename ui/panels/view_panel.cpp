@@ -7,6 +7,7 @@
 #include "ui/actions/arm_workspace.h"
 #include "ui/actions/control_points.h"
 #include "ui/actions/pending_import.h"
+#include "ui/actions/stock_workspace.h"
 #include "ui/panels/compare_view.h"
 #include "ui/panels/layer_list.h"
 #include "ui/panels/surface_tool.h"
@@ -171,6 +172,13 @@ void show_planned(const FrameState& now, viewport::Scene& scene) {
     if (now.set_up && plan::same_but_for_place(now.set_up->project, now.project)) {
         scene.set_up = now.set_up;
         scene.set_up_place = now.set_up_place();
+    }
+    const bool has_stock = now.view_state.workspace == Workspace::toolpath ||
+                           now.view_state.workspace == Workspace::program ||
+                           now.view_state.workspace == Workspace::machine;
+    if (has_stock && now.view_state.stock.shown && actions::stock_is_current(now)) {
+        scene.stock = now.stock.view().picture;
+        scene.stock_tolerance = now.view_state.stock.settings.tolerance;
     }
     scene.start = now.evaluation(project::GridMethod::uniform);
     viewport::SurfaceTool tool = surface_tool_of(now);

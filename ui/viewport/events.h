@@ -108,6 +108,7 @@ struct UnderMouse {
     std::optional<Vec2> uv;         ///< parameters there
     std::optional<ControlPointId> point;
     std::optional<int> move;
+    std::optional<double> stock_height; ///< of what is left of the stock over the part, mm
 };
 
 } // namespace millwright::viewport

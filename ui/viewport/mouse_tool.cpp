@@ -4,6 +4,7 @@
 #include "ui/viewport/internal/pointer_pixel.h"
 #include "ui/viewport/navigation.h"
 #include "ui/viewport/program_picking.h"
+#include "ui/viewport/stock_sight.h"
 #include "ui/viewport/symmetric_points.h"
 
 #include <glm/geometric.hpp>
@@ -141,6 +142,25 @@ std::vector<ViewEvent> MouseTool::follow(const MouseToolInput& input) {
     return events;
 }
 
+/// What hides what is behind it; its distance, if the mouse is on it.
+std::optional<double> MouseTool::point_at_solid(const MouseToolInput& input, const Frame& s_T_w) {
+    const render::Ray ray = render::ray(input.view, pixel_of(input.pointer));
+    if (shows_stock(input.scene)) {
+        const auto hit = pick_stock(*input.scene.stock, ray, s_T_w);
+        if (hit) {
+            under_mouse_.on_surface = hit->position;
+            under_mouse_.stock_height = hit->height;
+        }
+        return hit ? std::optional(hit->distance) : std::nullopt;
+    }
+    const auto hit = input.picker.hit(ray, s_T_w);
+    if (hit) {
+        under_mouse_.on_surface = hit->position;
+        under_mouse_.uv = hit->uv;
+    }
+    return hit ? std::optional(hit->distance) : std::nullopt;
+}
+
 void MouseTool::point_at(const MouseToolInput& input) {
     leave();
     move_fraction_.reset();
@@ -160,18 +180,13 @@ void MouseTool::point_at(const MouseToolInput& input) {
         highlight_.path_point = place ? std::optional(place->point) : std::nullopt;
         return;
     }
-    const auto hit = input.picker.hit(render::ray(input.view, pixel), s_T_w);
-    if (hit) {
-        under_mouse_.on_surface = hit->position;
-        under_mouse_.uv = hit->uv;
-    }
+    const std::optional<double> sight = point_at_solid(input, s_T_w);
     if (editable(scene)) {
         highlight_.point =
             pick_control_point(*scene.surface, s_T_w, input.view, pixel, handle_reach_px * scale);
     }
     if (!highlight_.point) {
         const double size = scene.surface ? scene.surface->control_box().diagonal().norm() : 0.0;
-        const auto sight = hit ? std::optional(hit->distance) : std::nullopt;
         const auto move =
             pick_move(scene, input.view, pixel, move_reach_px * scale, sight, hidden_share * size);
         if (move) {

@@ -56,6 +56,7 @@ private:
     [[nodiscard]] std::vector<ViewEvent> follow_arm(const MouseToolInput& input);
     [[nodiscard]] std::vector<ViewEvent> follow_tool(const MouseToolInput& input);
     void point_at(const MouseToolInput& input);
+    std::optional<double> point_at_solid(const MouseToolInput& input, const Frame& s_T_w);
     void press(const MouseToolInput& input);
     void hold(const MouseToolInput& input, std::vector<ViewEvent>& events);
     void release(const MouseToolInput& input, std::vector<ViewEvent>& events);

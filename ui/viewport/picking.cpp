@@ -2,6 +2,7 @@
 
 #include "ui/render/convert.h"
 #include "ui/viewport/internal/curves.h"
+#include "ui/viewport/internal/ray_triangle.h"
 
 #include <glm/geometric.hpp>
 
@@ -26,20 +27,6 @@ template <typename Use> void for_each_point(const geometry::Surface& surface, co
             }
         }
     }
-}
-
-/// Moeller and Trumbore 1997: (distance, weight of b, weight of c).
-std::optional<Vec3>
-meet_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
-    const Vec3 p = direction.cross(ac);
-    const double volume = ab.dot(p);
-    const Vec3 t = origin - a;
-    const Vec3 q = t.cross(ab);
-    const Vec3 met = Vec3(ac.dot(q), t.dot(p), direction.dot(q)) / volume;
-    const bool inside = met.y() >= 0.0 && met.z() >= 0.0 && met.y() + met.z() <= 1.0;
-    return std::abs(volume) > 0.0 && met.x() >= 0.0 && inside ? std::optional(met) : std::nullopt;
 }
 
 struct OnSegment {

@@ -14,6 +14,7 @@
 #include "core/plan/plot_work.h"
 #include "core/plan/reference_mesh.h"
 #include "core/plan/set_up_work.h"
+#include "core/plan/stock_simulation.h"
 #include "core/plan/weight_map.h"
 #include "core/toolpath/singular_points.h"
 #include "ui/render/bounds.h"
@@ -140,8 +141,10 @@ struct Scene {
     std::shared_ptr<const grid::OptimiserState>
         watched; ///< an adaptation on its way; drawn in place of the grid
     std::shared_ptr<const plan::WeightMap> weight;
-    std::shared_ptr<const plan::CutStudy> cut = nullptr;              ///< of the program
-    std::shared_ptr<const plan::SetUpResult> set_up = nullptr;        ///< of the last search
+    std::shared_ptr<const plan::CutStudy> cut = nullptr;       ///< of the program
+    std::shared_ptr<const plan::StockPicture> stock = nullptr; ///< at `now`, drawn in place of the surface
+    double stock_tolerance = 0.1;                              ///< of its colours, mm
+    std::shared_ptr<const plan::SetUpResult> set_up = nullptr; ///< of the last search
     toolpath::SetUpPlace set_up_place = toolpath::SetUpPlace::Zero(); ///< that is marked on its map
     std::shared_ptr<const plan::OpenedProgram> opened = nullptr;      ///< in place of everything above
     std::optional<ProgramMoment> opened_now = std::nullopt;
@@ -172,6 +175,9 @@ struct Scene {
 
 /// The same look, with the workpiece's coordinates in place of the scene's: an opened path is kept in those.
 [[nodiscard]] render::View path_view(const render::View& view, const Scene& scene);
+
+/// What is left of the stock is drawn, and covers the surface.
+[[nodiscard]] bool shows_stock(const Scene& scene);
 
 /// What gives the surface its colours: the topmost of the layers that are on and have their results. The
 /// deviation colours the triangles that the surface was fitted to, which then stand in its place.

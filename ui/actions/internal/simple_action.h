@@ -54,6 +54,7 @@ void add_view_actions(Actions& actions);
 void add_layer_actions(Actions& actions);
 void add_grid_actions(Actions& actions);
 void add_set_up_actions(Actions& actions);
+void add_stock_actions(Actions& actions);
 void add_playback_actions(Actions& actions);
 void add_machine_actions(Actions& actions);
 void add_queue_actions(Actions& actions);

@@ -23,6 +23,7 @@ namespace millwright::viewport {
 [[nodiscard]] std::unique_ptr<Layer> make_singular_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_gouge_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_set_up_layer();
+[[nodiscard]] std::unique_ptr<Layer> make_stock_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_control_net_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_simulation_layer();
 [[nodiscard]] std::unique_ptr<Layer> make_program_layer();

@@ -1,6 +1,7 @@
 #include "ui/viewport/internal/legends.h"
 
 #include "ui/viewport/internal/overlay.h"
+#include "ui/viewport/stock_sight.h"
 #include "ui/widgets/legend.h"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ struct Legend {
     std::string_view id, title, unit, tip;
     render::ColorScale scale;
     std::optional<double> largest = {};
+    widgets::ColourMap colors = {}; ///< in place of those of `scale`
 };
 
 /// What of the picture has its colours from numbers.
@@ -62,6 +64,19 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "mm",
                          "Value with the part at that position: mean error or machine travel.",
                          set_up_colors(scene)});
+    }
+    if (shows_stock(scene)) {
+        const double tolerance = scene.stock_tolerance, range = stock_range(tolerance);
+        found.push_back({.id = "stock_legend",
+                         .title = "Stock",
+                         .unit = "mm",
+                         .tip =
+                             "Height of the remaining material over the part: gouges are red, heights within "
+                             "the tolerance green, excess is blue.",
+                         .scale = {.low = -range, .high = range},
+                         .colors = [tolerance, range](double t) {
+                             return to_colour(stock_color(range * (2.0 * t - 1.0), tolerance));
+                         }});
     }
     if (surface == SurfaceColors::deviation) {
         found.push_back(
@@ -168,7 +183,9 @@ void draw_legends(widgets::Ui& ui,
             .unit = legend.unit,
             .low = legend.scale.low,
             .high = legend.scale.high,
-            .map = [map = legend.scale.map](double t) { return to_colour(render::sample(map, t)); },
+            .map = legend.colors
+                       ? legend.colors
+                       : [map = legend.scale.map](double t) { return to_colour(render::sample(map, t)); },
             .largest = legend.largest,
             .tip = legend.tip,
             .lying = places.lying};

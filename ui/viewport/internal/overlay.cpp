@@ -6,6 +6,7 @@
 #include "ui/render/convert.h"
 #include "ui/render/ink.h"
 #include "ui/viewport/internal/boxes.h"
+#include "ui/viewport/stock_sight.h"
 #include "ui/widgets/canvas.h"
 
 #include <glm/geometric.hpp>
@@ -319,6 +320,8 @@ void draw_hint(widgets::Ui& ui,
         ui.record("hint", widgets::label_box(ui, at, text));
         widgets::label_at(ui, at, text, text_colour(pane));
     };
+    const auto& height = mouse_tool.under_mouse().stock_height;
+    const std::string stock = height ? height_text(*height, scene.stock_tolerance) : std::string();
     if (scene.arm && mouse_tool.highlight().arm) {
         at_mouse(arm_text(*scene.arm, *mouse_tool.highlight().arm));
     } else if (mouse_tool.drag()) {
@@ -327,7 +330,9 @@ void draw_hint(widgets::Ui& ui,
         const Label label = {render::to_glm(place), drag_text(drag), pane.colors.selected};
         draw_labels(ui, pane, std::span(&label, 1), fixed);
     } else if (mouse_tool.highlight().move && scene.shown) {
-        at_mouse(move_text(scene, *mouse_tool.highlight().move));
+        at_mouse(move_text(scene, *mouse_tool.highlight().move) + (stock.empty() ? "" : ", " + stock));
+    } else if (!stock.empty()) {
+        at_mouse(stock);
     }
 }
 

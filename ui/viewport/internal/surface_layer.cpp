@@ -72,7 +72,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.surface) {
+        if (!scene.layers.surface || shows_stock(scene)) {
             return;
         }
         const render::ViewColors& colors = canvas.colors;

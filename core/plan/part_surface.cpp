@@ -1,4 +1,4 @@
-#include "app/simulation/part_surface.h"
+#include "core/plan/part_surface.h"
 
 #include "core/base/error.h"
 #include "core/exchange/mesh_file.h"
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace millwright::app {
+namespace millwright::plan {
 
 namespace {
 
@@ -48,7 +48,7 @@ void add_divided(const Triangle& t, double longest, PartSurface& part) {
 
 } // namespace
 
-PartSurface part_surface(const plan::CuttingSetup& cutting_setup) {
+PartSurface part_surface(const CuttingSetup& cutting_setup) {
     constexpr int steps = 80; // each way: 6,561 points
     const geometry::Mesh mesh =
         cutting_setup.trim.everything()
@@ -118,4 +118,4 @@ std::vector<std::array<std::uint8_t, 3>> deviation_colors(
     return colors;
 }
 
-} // namespace millwright::app
+} // namespace millwright::plan

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace millwright::app {
+namespace millwright::plan {
 
 struct PartSurface {
     std::string text;                          ///< for people
@@ -23,7 +23,7 @@ struct PartSurface {
 };
 
 /// The machined face with its outlines, normals on the side of the tool.
-[[nodiscard]] PartSurface part_surface(const plan::CuttingSetup& cutting_setup);
+[[nodiscard]] PartSurface part_surface(const CuttingSetup& cutting_setup);
 
 /// The triangles of an STL, OBJ or PLY file in mm, large ones divided. Throws Error, Cancelled.
 [[nodiscard]] PartSurface part_surface(const std::filesystem::path& file, const Progress& progress);
@@ -32,4 +32,4 @@ struct PartSurface {
 [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> deviation_colors(
     const PartSurface& part, const std::vector<simulation::Deviation>& deviations, double tolerance);
 
-} // namespace millwright::app
+} // namespace millwright::plan

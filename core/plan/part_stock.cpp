@@ -1,0 +1,64 @@
+#include "core/plan/part_stock.h"
+
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/exchange/mesh_file.h"
+#include "core/geometry/mesh.h"
+#include "core/simulation/spec_text.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+namespace millwright::plan {
+
+namespace {
+
+std::shared_ptr<const simulation::MeshStock>
+mesh_from(const std::filesystem::path& file, const Vec3& shift, const Progress& progress) {
+    exchange::MeshFile read = exchange::read_mesh(file, 1.0, progress);
+    auto mesh = std::make_shared<simulation::MeshStock>();
+    mesh->points = std::move(read.mesh.points);
+    mesh->triangles = std::move(read.mesh.triangles);
+    for (Vec3& point : mesh->points) {
+        point += shift;
+    }
+    if (const std::string fault = simulation::fault_of(simulation::Stock(mesh)); !fault.empty()) {
+        throw Error(fault, file, "repair it in the program that it comes from");
+    }
+    mesh->is_checked = true;
+    return mesh;
+}
+
+} // namespace
+
+NamedStock stock_around(const geometry::Surface& surface, double allowance) {
+    Box3 box;
+    constexpr int steps = 60;
+    for (const geometry::ParametricSurface* part : surface.parts()) {
+        for (const Vec3& point : geometry::tessellate(*part, steps, steps).positions) {
+            box.extend(point);
+        }
+    }
+    const Vec3 more = Vec3::Constant(allowance);
+    const simulation::Stock stock = simulation::BoxStock{box.min() - more, box.max() + more};
+    return {stock,
+            fmt::format("{}: the box of the surface and {:g} mm on every side",
+                        simulation::to_text(stock),
+                        allowance)};
+}
+
+NamedStock stock_from(std::string_view text, const Progress& progress) {
+    const simulation::StockText parsed = simulation::parse_stock(text);
+    if (parsed.stock) {
+        return {*parsed.stock, simulation::to_text(*parsed.stock)};
+    }
+    const simulation::Stock stock = mesh_from(parsed.mesh_file, parsed.shift, progress);
+    return {
+        stock,
+        fmt::format("{} of {}", simulation::to_text(stock), printable(parsed.mesh_file.filename().string()))};
+}
+
+} // namespace millwright::plan

@@ -1,0 +1,25 @@
+// What a project's part is cut from in a simulation. Lengths mm.
+#pragma once
+
+#include "core/base/progress.h"
+#include "core/geometry/surface.h"
+#include "core/simulation/stock.h"
+
+#include <string>
+#include <string_view>
+
+namespace millwright::plan {
+
+struct NamedStock {
+    simulation::Stock stock;
+    std::string text; ///< for people: "box 100 x 60 x 20 mm from 0, 0, -20"
+};
+
+/// The box of all faces, and `allowance` more on every side.
+[[nodiscard]] NamedStock stock_around(const geometry::Surface& surface, double allowance);
+
+/// As core/simulation/spec_text.h has it; a mesh is read from its file. Throws Error, with the place, for
+/// other texts, files that cannot be read, and meshes with a fault; Cancelled.
+[[nodiscard]] NamedStock stock_from(std::string_view text, const Progress& progress);
+
+} // namespace millwright::plan

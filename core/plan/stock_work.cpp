@@ -1,0 +1,117 @@
+#include "core/plan/stock_work.h"
+
+#include "core/plan/internal/background.h"
+#include "core/plan/internal/failure.h"
+
+#include <mutex>
+#include <utility>
+
+namespace millwright::plan {
+
+/// Two threads: what was found last can be looked at along the timeline while the next one is worked out.
+class StockWorker::Worker {
+public:
+    explicit Worker(std::function<void()> wake)
+        : wake_(std::move(wake)), drawing_(wake_), simulating_(wake_) {}
+
+    void request(StockJob job) {
+        simulating_.replace([this, job = std::move(job)](const Progress& progress) {
+            std::shared_ptr<StockSimulation> made;
+            const std::optional<Diagnostic> failure =
+                failure_of([&] { made = std::make_shared<StockSimulation>(job, progress); });
+            progress.check();
+            const std::scoped_lock lock(mutex_);
+            view_.failure = failure;
+            if (made) {
+                view_.result = made->result();
+                view_.picture = nullptr;
+                simulation_ = std::move(made);
+                wanted_.reset();
+            }
+        });
+    }
+    void cancel() { simulating_.clear(); }
+
+    void show(int block) {
+        {
+            const std::scoped_lock lock(mutex_);
+            if (!simulation_ || wanted_ == block) {
+                return;
+            }
+            wanted_ = block;
+            if (std::exchange(waits_, true)) {
+                return; // what waits takes the newest block
+            }
+        }
+        drawing_.append([this](const Progress& progress) { draw(progress); });
+    }
+
+    [[nodiscard]] StockView view() const {
+        const std::scoped_lock lock(mutex_);
+        return view_;
+    }
+    [[nodiscard]] Activity activity() const { return simulating_.activity(); }
+    void wait_idle() const {
+        simulating_.wait_idle();
+        drawing_.wait_idle();
+    }
+
+private:
+    void draw(const Progress& progress) {
+        std::shared_ptr<StockSimulation> simulation;
+        int block = 0;
+        {
+            const std::scoped_lock lock(mutex_);
+            waits_ = false;
+            simulation = simulation_;
+            block = wanted_.value_or(0);
+        }
+        std::shared_ptr<const StockPicture> picture;
+        const std::optional<Diagnostic> failure = failure_of([&] {
+            picture = std::make_shared<const StockPicture>(simulation->picture_before(block, progress));
+        });
+        const std::scoped_lock lock(mutex_);
+        if (simulation == simulation_) { // else it is of an earlier one
+            view_.failure = failure;
+            view_.picture = picture ? std::move(picture) : view_.picture;
+        }
+    }
+
+    std::function<void()> wake_;
+    mutable std::mutex mutex_; ///< guards what follows
+    StockView view_;
+    std::shared_ptr<StockSimulation> simulation_; ///< used by the thread that draws
+    std::optional<int> wanted_;                   ///< the block that a picture was last asked for
+    bool waits_ = false;                          ///< a job for it has not begun yet
+    Background drawing_, simulating_;             // last: their threads end before the rest goes
+};
+
+StockWorker::StockWorker(std::function<void()> wake) : worker_(std::make_unique<Worker>(std::move(wake))) {}
+
+StockWorker::~StockWorker() = default;
+
+void StockWorker::request(StockJob job) {
+    worker_->request(std::move(job));
+}
+
+void StockWorker::cancel() {
+    worker_->cancel();
+}
+
+void StockWorker::show(int block) {
+    worker_->show(block);
+}
+
+StockView StockWorker::view() const {
+    return worker_->view();
+}
+
+Activity StockWorker::activity() const {
+    return worker_->activity();
+}
+
+void StockWorker::wait_idle() const {
+    worker_->wait_idle();
+}
+
+} // namespace millwright::plan
