@@ -89,7 +89,7 @@ void let_go(actions::AppController& app) {
 [[noreturn]] void end_without_display(std::unique_ptr<actions::AppController>& app) {
     fmt::print(stderr, "millwright: the display connection is lost; all motion is stopped\n");
     app.reset();
-    constexpr int failed = 1;
+    constexpr int window_failed = 1;
     std::_Exit(failed);
 }
 

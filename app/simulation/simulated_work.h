@@ -4,6 +4,7 @@
 #include "core/base/progress.h"
 #include "core/gcode/reader_settings.h"
 #include "core/kinematics/machine_model.h"
+#include "core/plan/part_surface.h"
 #include "core/program/program.h"
 #include "core/simulation/collision_bodies.h"
 #include "core/simulation/simulation.h"
