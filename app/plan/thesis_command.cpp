@@ -119,17 +119,19 @@ void add_files(CLI::App& thesis, Command& chosen) {
         ->allow_extra_args(false)
         ->check(CLI::Range(2, most_nodes))
         ->type_name("NU[,NV]");
-    std::map<std::string, grid::TrackDirection> directions;
+    std::map<std::string, grid::TrackDirection> track_directions;
     for (const auto& row : project::track_directions()) {
-        directions.emplace(row.id, row.value);
+        track_directions.emplace(row.id, row.value);
     }
     command
         .add_option_function<std::string>(
             "--direction",
-            [options, directions](const std::string& name) { options->direction = directions.at(name); },
+            [options, track_directions](const std::string& name) {
+                options->direction = track_directions.at(name);
+            },
             "Tracks along u (Tool Path 1) or along v (Tool Path 2); default: the project's")
-        ->check(CLI::IsMember(directions).description(""))
-        ->type_name(choice_list(directions));
+        ->check(CLI::IsMember(track_directions).description(""))
+        ->type_name(choice_list(track_directions));
     const std::map<std::string, std::optional<kinematics::RotaryTilt>> constants{
         {"project", std::nullopt},
         {"listing", kinematics::listing_values},
