@@ -89,6 +89,14 @@ AppController::AppController(AppOptions options)
 
 AppController::~AppController() = default;
 
+std::shared_ptr<const plan::OpenedProgram> AppController::opened() const {
+    if (view_state_.workspace == Workspace::plot) {
+        return plot_->opened();
+    }
+    auto file = reader_->latest();
+    return !file && view_state_.workspace == Workspace::arm ? plot_->opened() : file;
+}
+
 FrameState AppController::look() const {
     const auto answer_of = [](const RunChecker& checker, const std::shared_ptr<const RunWish>& wish) {
         auto found = checker.answer();
@@ -107,7 +115,7 @@ FrameState AppController::look() const {
             : stock_->activity().busy  ? stock_->activity()
                                        : pipeline_->activity(),
             reader_->latest(),
-            view_state_.workspace == Workspace::plot ? plot_->opened() : reader_->latest(),
+            opened(),
             jobs_->view(),
             approach_->answer(),
             connection_->view(),
@@ -286,9 +294,11 @@ bool AppController::advance(double seconds) {
     return processed || playback.time < before || playback.time > before;
 }
 
+/// Of what a job is made of: none is made of what the Plot & Picture workspace shows.
 void AppController::follow_begin() {
     const FrameState now = look();
-    if (!view_state_.start_at.on || now.job.running || !program_ready(now).allowed) {
+    const bool is_plot = view_state_.workspace == Workspace::plot;
+    if (!view_state_.start_at.on || is_plot || now.job.running || !program_ready(now).allowed) {
         approach_->want(std::nullopt);
         return;
     }

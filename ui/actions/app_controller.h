@@ -232,6 +232,7 @@ private:
     void look_at_another();
     void play_again(const jobs::JobStory& story);
     void open_gcode(const std::filesystem::path& file);
+    [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() const; ///< FrameState::opened
     void follow_file();
     void follow_received();
     void open_plot(const std::filesystem::path& file);

@@ -45,8 +45,8 @@ struct FrameState {
     std::shared_ptr<const plan::WatchedAdaptation> watched; ///< null while none is watched
     plan::Activity activity;                                ///< of whatever works in the background
     std::shared_ptr<const plan::OpenedProgram> opened_file; ///< a G-code file; null while none is open
-    /// The program that is looked at line by line: of the plot in its workspace, elsewhere `opened_file`.
-    /// Null while there is none.
+    /// The program that is looked at: of the plot in its workspace, elsewhere `opened_file`, and before the
+    /// arm that of the plot where no file is open. Null while there is none.
     std::shared_ptr<const plan::OpenedProgram> opened;
     JobView job;
     std::shared_ptr<const Approach> approach; ///< of ViewState::begin; null while it is not worked out

@@ -188,6 +188,11 @@ void start_job(ActionContext& context, jobs::Job job, const JobRunner::Ended& en
 
 /// The program has to be there when the window is opened again.
 Permission can_add(const FrameState& now) {
+    if (now.view_state.workspace == Workspace::plot) {
+        return Permission::refused(
+            "Open the program in the Machine workspace first: a queued job is read from "
+            "its file.");
+    }
     if (!now.in_file() && (now.document.file.empty() || now.changed())) {
         return Permission::refused("Save the project first: a queued job is read from its file.");
     }

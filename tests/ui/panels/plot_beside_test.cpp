@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 
 namespace millwright::panels {
 namespace {
@@ -94,6 +95,39 @@ TEST(PlotWorkspace, TheProgramOfAPlotIsNoneOfTheMachinesBeforeItIsSentThere) {
     EXPECT_FALSE(now.in_file());
     EXPECT_FALSE(now.opened);
     EXPECT_EQ(now.program(), now.plan->plan.program);
+}
+
+// A job that begins at a line of the open program must not become one of the plot's.
+TEST(PlotWorkspace, ALineToStartAtStaysOneOfTheOpenProgram) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    bench.person.app().view_state().workspace = Workspace::program;
+    bench.person.app().open("assets/samples/thesis-arc.ngc");
+    bench.settle();
+    const auto program = bench.person.app().look().opened;
+    bench.person.app().view_state().workspace = Workspace::machine;
+    const actions::StartAt start{.on = true, .line = 4, .clearance = std::nullopt, .hash = {}};
+    bench.person.app().view_state().start_at = start;
+    bench.settle();
+    ASSERT_TRUE(bench.person.app().look().approach);
+    EXPECT_EQ(bench.person.app().look().approach->wish.source.opened, program);
+    bench.person.app().view_state().workspace = Workspace::plot;
+    bench.settle();
+    EXPECT_FALSE(bench.person.app().look().approach);
+    bench.person.app().view_state().workspace = Workspace::machine;
+    bench.settle();
+    EXPECT_EQ(bench.person.app().view_state().start_at, start);
+    ASSERT_TRUE(bench.person.app().look().approach);
+    EXPECT_EQ(bench.person.app().look().approach->wish.source.opened, program);
+}
+
+TEST(PlotWorkspace, ItsProgramIsQueuedFromTheMachineWorkspaceAlone) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    const actions::Action& add = bench.person.app().catalogue().find("queue.add");
+    EXPECT_THAT(add.permission(bench.person.app().look()).reason,
+                HasSubstr("in the Machine workspace first"));
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    EXPECT_TRUE(add.permission(bench.person.app().look()).allowed);
 }
 
 } // namespace
