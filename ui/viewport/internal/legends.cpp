@@ -38,6 +38,19 @@ struct Legend {
     widgets::ColourMap colors = {}; ///< in place of those of `scale`
 };
 
+Legend stock_legend(double tolerance) {
+    const double range = stock_range(tolerance);
+    return {.id = "stock_legend",
+            .title = "Stock",
+            .unit = "mm",
+            .tip = "Height of the remaining material over the part: gouges are red, heights within the "
+                   "tolerance green, excess is blue.",
+            .scale = {.low = -range, .high = range},
+            .colors = [tolerance, range](double t) {
+                return to_colour(stock_color(range * (2.0 * t - 1.0), tolerance));
+            }};
+}
+
 /// What of the picture has its colours from numbers.
 std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors) {
     std::vector<Legend> found;
@@ -66,17 +79,7 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          set_up_colors(scene)});
     }
     if (shows_stock(scene)) {
-        const double tolerance = scene.stock_tolerance, range = stock_range(tolerance);
-        found.push_back({.id = "stock_legend",
-                         .title = "Stock",
-                         .unit = "mm",
-                         .tip =
-                             "Height of the remaining material over the part: gouges are red, heights within "
-                             "the tolerance green, excess is blue.",
-                         .scale = {.low = -range, .high = range},
-                         .colors = [tolerance, range](double t) {
-                             return to_colour(stock_color(range * (2.0 * t - 1.0), tolerance));
-                         }});
+        found.push_back(stock_legend(scene.stock_tolerance));
     }
     if (surface == SurfaceColors::deviation) {
         found.push_back(
