@@ -39,7 +39,8 @@ CLI::Validator not_below_zero() {
 
 void expect_finite_numbers(CLI::App& app) {
     for (CLI::Option* const option : app.get_options()) {
-        if (option->get_type_name().find("FLOAT") != std::string::npos) {
+        const std::string type = option->get_type_name();
+        if (type.find("FLOAT") != std::string::npos || type.starts_with("X,Y")) { // coordinates
             option->check(finite_number());
         }
     }

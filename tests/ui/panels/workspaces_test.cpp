@@ -135,7 +135,7 @@ TEST(WorkspacePanes, TextsAndPlotsGetMoreOfALargeWindow) {
     const auto panes = [](Person& person) {
         person.app().run("view.program");
         person.frames(3);
-        return std::pair{person.place("outline").w, person.place("lower").h};
+        return std::pair{person.place("program").w, person.place("lower").h};
     };
     Person usual({1280, 1000}), large({2560, 1600});
     const auto [text, plots] = panes(usual);
