@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -177,19 +178,48 @@ TEST(Flattening, HarmonicHardlyDependsOnTheMesh) {
                 1e-3);
 }
 
-// Two sides of a lens are points: its triangles have to be as wide as they are long all the same.
-TEST(Flattening, SpreadsOutALens) {
+/// 60 mm long; two of its sides are points.
+BezierPatch lens(double width) {
     geometry::ControlNet net = geometry::ControlNet::sized(3, 2);
     for (int j = 0; j < 2; ++j) {
         net.point(0, j) = {0, 0, 0};
-        net.point(1, j) = {30, j == 0 ? -12.0 : 12.0, 6};
+        net.point(1, j) = {30, (j - 0.5) * 2.0 * width, 6};
         net.point(2, j) = {60, 0, 0};
     }
-    const FaceMesh mesh = sheet({BezierPatch(net)});
+    return BezierPatch(std::move(net));
+}
+
+// Its triangles have to be as wide as they are long all the same.
+TEST(Flattening, SpreadsOutALens) {
+    const FaceMesh mesh = sheet({lens(12.0)});
     const Flattening free = conformal(mesh);
     EXPECT_TRUE(free.injective());
     EXPECT_LT(free.distortion, 1.02);
     EXPECT_TRUE(harmonic(mesh, proposed_corners(mesh, Progress())).injective());
+}
+
+TEST(Flattening, IsByMeanValuesWhereTheHarmonicMapFolds) {
+    const std::vector<ExactFace> faces = faces_of({lens(4.0)});
+    const FaceMesh mesh = face_mesh(faces, {.tolerance = 0.01, .triangles = 300}, Progress());
+    ASSERT_GT(mesh.boundary.size(), 100U);
+    const SheetCorners beside_the_tip{3, 12, 36, 49};
+    ASSERT_FALSE(harmonic(mesh, beside_the_tip).injective());
+    const Flattening taken = flattened(faces, mesh, beside_the_tip, Progress());
+    EXPECT_EQ(taken.method, FlatteningMethod::mean_value);
+    EXPECT_TRUE(taken.injective());
+}
+
+TEST(Flattening, RefusesCornersByWhichEachWayFolds) {
+    const std::vector<ExactFace> faces = faces_of({lens(4.0)});
+    const FaceMesh mesh = face_mesh(faces, {.tolerance = 0.01, .triangles = 300}, Progress());
+    try {
+        (void)flattened(faces, mesh, SheetCorners{1, 3, 77, 83}, Progress());
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        const std::string& text = error.diagnostic().message;
+        EXPECT_EQ(text.find("the faces fold in "), 0U) << text;
+        EXPECT_NE(text.find(", the first at x "), std::string::npos) << text;
+    }
 }
 
 } // namespace
