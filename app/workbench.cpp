@@ -89,8 +89,8 @@ void let_go(actions::AppController& app) {
 [[noreturn]] void end_without_display(std::unique_ptr<actions::AppController>& app) {
     fmt::print(stderr, "millwright: the display connection is lost; all motion is stopped\n");
     app.reset();
-    constexpr int window_failed = 1;
-    std::_Exit(failed);
+    constexpr int display_lost = 1;
+    std::_Exit(display_lost);
 }
 
 /// Of the window when it was last closed.

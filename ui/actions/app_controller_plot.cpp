@@ -1,6 +1,7 @@
 // The part of AppController that deals with drawings: opening one, the program that is made of it.
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "core/gcode/tool_comments.h"
 #include "core/project/gcode_file.h"
@@ -65,6 +66,23 @@ std::optional<gcode::CommentTool> tool_of_comments(const fs::path& file) {
     return tool && tool->diameter >= setting.min && tool->diameter <= setting.max ? tool : std::nullopt;
 }
 
+/// mm. The tool that a comment of the plot's file names is not that of another file: what was set before that
+/// file was opened is.
+double own_tool_diameter(const project::History& history) {
+    const project::PlotInput& plot = history.current().plot;
+    const double now = plot.settings.strokes.tool_diameter;
+    const auto named = tool_of_comments(plot.file);
+    if (!named || !exactly_equal(named->diameter, now)) {
+        return now;
+    }
+    project::History before = history;
+    while (before.current().plot.file == plot.file && !before.undo_title().empty()) {
+        before.undo();
+    }
+    const bool was_never_another = before.current().plot.file == plot.file;
+    return was_never_another ? plot::StrokePlan().tool_diameter : own_tool_diameter(before);
+}
+
 } // namespace
 
 void AppController::open_plot(const fs::path& file) {
@@ -80,14 +98,13 @@ void AppController::open_plot(const fs::path& file) {
         plot_->read_again();
     }
     const auto tool = another ? tool_of_comments(whole) : std::nullopt;
+    const double own = own_tool_diameter(history_);
     edit("Open " + file.filename().string(),
          [&](project::Project& draft) {
              if (another) {
                  draft.plot.file = whole;
                  forget_drawing(draft.plot.settings);
-             }
-             if (tool) {
-                 draft.plot.settings.strokes.tool_diameter = tool->diameter;
+                 draft.plot.settings.strokes.tool_diameter = tool ? tool->diameter : own;
              }
          },
          {});

@@ -39,6 +39,32 @@ fs::path file_in(const PlotPerson& bench, const std::string& name, const std::st
     return bench.folder / name;
 }
 
+const std::string cam_program = "(T1 D=6. CR=0. - FLAT END MILL)\n" + with_s;
+
+// The 6 mm of one file's comment offset the outlines of the next one.
+TEST(PlotFiles, TheToolOfACommentIsThatOfItsFileAlone) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    const auto diameter = [&bench] { return bench.plot().settings().strokes.tool_diameter; };
+    bench.person.fill_in("inspector/cutter/tool_mm", "2");
+    bench.settle();
+    bench.drop(file_in(bench, "cam.ngc", cam_program));
+    EXPECT_DOUBLE_EQ(diameter(), 6.0);
+    EXPECT_THAT(bench.person.app().view_state().log.back(),
+                HasSubstr("line 1 gives a tool diameter of 6 mm"));
+    bench.drop("assets/samples/plot/everyday.plt");
+    EXPECT_DOUBLE_EQ(diameter(), 2.0) << "as it was before";
+    bench.person.press_key(render::Key::z, true);
+    ASSERT_EQ(bench.plot().file().filename(), "cam.ngc");
+    bench.drop("assets/samples/plot/everyday.plt");
+    EXPECT_DOUBLE_EQ(diameter(), 2.0) << "behind undo, too";
+
+    bench.drop(file_in(bench, "cam2.ngc", cam_program));
+    bench.person.fill_in("inspector/cutter/tool_mm", "4");
+    bench.settle();
+    bench.drop("assets/samples/plot/everyday.plt");
+    EXPECT_DOUBLE_EQ(diameter(), 4.0) << "what a person typed stays";
+}
+
 TEST(PlotFiles, TheProgramsOwnSpindleCountsUntilAPersonTypesAnother) {
     PlotPerson bench("assets/samples/plot/everyday.plt");
     EXPECT_THAT(bench.made().program->listing->text, HasSubstr("S10000"));
