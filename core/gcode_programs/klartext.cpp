@@ -83,7 +83,9 @@ private:
     double unit_ = 1.0;
     double feed_ = 0.0; ///< mm or degrees per minute
     double rpm_ = 0.0;
-    double tool_ = 0.0; ///< number of the last that was called
+    double sense_ = 0.0;     ///< of the spindle: 1, -1, or 0 while it rests
+    int new_speed_line_ = 0; ///< of a TOOL CALL that has changed the speed of a turning spindle; 0: none
+    double tool_ = 0.0;      ///< number of the last that was called
     int line_ = 0;
     int number_ = -1; ///< of the last block
     bool numbered_ = true;
@@ -128,6 +130,15 @@ private:
     }
 
     WrittenStep& add(StepKind kind) {
+        const int speed_line = std::exchange(new_speed_line_, 0);
+        const bool says_it =
+            kind == StepKind::spindle_on || kind == StepKind::spindle_off || kind == StepKind::end;
+        if (speed_line > 0 && !says_it) {
+            WrittenStep& faster = steps_.emplace_back();
+            faster.kind = StepKind::spindle_on;
+            faster.line = speed_line;
+            faster.value = sense_ * rpm_;
+        }
         WrittenStep& step = steps_.emplace_back();
         step.kind = kind;
         step.line = line_;
@@ -222,7 +233,10 @@ private:
         }
         for (const Word& word : words_) {
             if (word.text.starts_with('S')) {
-                rpm_ = value_of(word, "S");
+                const double before = std::exchange(rpm_, value_of(word, "S"));
+                if (!exactly_equal(sense_, 0.0) && !exactly_equal(before, rpm_)) {
+                    new_speed_line_ = line_;
+                }
             } else if (word.text.starts_with('F')) {
                 feed_ = value_of(word, "F") * unit_;
             }
@@ -265,12 +279,15 @@ private:
             add(StepKind::pause);
             break;
         case 3:
+            sense_ = 1.0;
             add(StepKind::spindle_on).value = rpm_;
             break;
         case 4:
+            sense_ = -1.0;
             add(StepKind::spindle_on).value = -rpm_;
             break;
         case 5:
+            sense_ = 0.0;
             add(StepKind::spindle_off);
             break;
         case 8:

@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/posts/internal/comment_text.h"
+#include "core/posts/internal/tool_number.h"
 #include "core/program/cutter_comment.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace millwright::posts {
@@ -77,6 +79,7 @@ private:
     gcode::Plane plane_ = gcode::Plane::xy;
     bool prepared_ = false;
     bool tip_ = false;
+    std::optional<int> tool_number_; ///< of the tool that lines with {tool} call
     int number_ = 0;
     int block_ = 0;
 
@@ -184,8 +187,14 @@ private:
         }
     }
 
-    [[nodiscard]] std::string with_tool(const std::string& pattern) const {
-        return filled(pattern, "tool", std::to_string(program_.tool ? program_.tool->number : 1));
+    [[nodiscard]] std::string with_tool(const std::string& pattern) {
+        if (pattern.find("{tool}") == std::string::npos) {
+            return pattern;
+        }
+        if (!tool_number_) { // looked for once, since it may take the whole program
+            tool_number_ = internal::tool_number(program_, format_.name);
+        }
+        return filled(pattern, "tool", std::to_string(*tool_number_));
     }
 
     void control_tip(bool wanted) {

@@ -215,6 +215,16 @@ constexpr std::array<MemoryPart, 3> registers{
     MemoryPart{'*', 0x7F0, 0x7FF},    // registers that nothing uses
     MemoryPart{'*', 0xC000, 0xCFFF}}; // encoders, outputs and flags of the channels
 
+/// Where those may point besides that are never given a value: the registers of motors 1 to 8 and of the
+/// coordinate systems, as the commanded position of motor 1 (D:$28).
+constexpr std::array<MemoryPart, 2> read_registers{MemoryPart{'*', 0x20, 0x1FF},
+                                                   MemoryPart{'*', 0x800, 0xFFF}};
+
+/// The M-variables that are kept for reading: of motor n, M{n}30 to M{n}49 and M{n}61 to M{n}79, the card's
+/// usual numbers for them.
+constexpr int reading_motors = 8;
+constexpr std::array<std::array<int, 2>, 2> reading_numbers{{{30, 49}, {61, 79}}};
+
 constexpr std::array<std::string_view, 7> memory_words{"X", "Y", "L", "DP", "D", "F", "TWS"};
 
 bool is_within(std::span<const MemoryPart> parts, std::string_view word, int first, std::ptrdiff_t last) {
@@ -244,8 +254,29 @@ bool writes_set_up(std::string_view word, std::string_view rest) {
     return first && is_within(set_up_memory, word, *first, *first + count - 1);
 }
 
+/// Whether some, or all, of the variables of `one` are kept for reading.
+bool reads_some(const Assignment& one) {
+    bool some = false;
+    for (int motor = 1; motor <= reading_motors; ++motor) {
+        for (const auto& [first, last] : reading_numbers) {
+            some = some || one.covers(100 * motor + first, 100 * motor + last);
+        }
+    }
+    return some;
+}
+
+bool reads_all(const Assignment& one) {
+    const int within = one.first % 100;
+    const int motor = one.first / 100;
+    return !one.computed && motor >= 1 && motor <= reading_motors && one.last / 100 == motor &&
+           std::ranges::any_of(reading_numbers, [&](const auto& numbers) {
+               return within >= numbers[0] && one.last % 100 <= numbers[1];
+           });
+}
+
 /// `L:$13E8`, `X:$C000,12,4`: whether values of such a variable could go where programs and variables are.
-bool points_into_memory(std::string_view definition) {
+bool points_into_memory(const Assignment& one) {
+    std::string_view definition = one.definition;
     if (definition.starts_with('*')) {
         return false; // a number of its own
     }
@@ -254,7 +285,8 @@ bool points_into_memory(std::string_view definition) {
     const auto address = take_index(definition);
     return word.empty() || !address ||
            (!is_within(set_up_memory, word, *address, *address) &&
-            !is_within(registers, word, *address, *address));
+            !is_within(registers, word, *address, *address) &&
+            !(reads_all(one) && is_within(read_registers, word, *address, *address)));
 }
 
 /// Whether the card may write through an I-variable of this value, each servo cycle: the word at its lower 16
@@ -358,11 +390,17 @@ std::string guard_refusal(std::string_view line) {
             return "P1000 to P1006 are reserved for the guard";
         } else if (one.letter == 'M' && one.covers(first_own, last_own_m)) {
             return "M1000 to M1008 are reserved for the guard";
-        } else if (one.letter == 'M' && !one.definition.empty() && points_into_memory(one.definition)) {
+        } else if (one.letter == 'M' && one.definition.empty() && reads_some(one)) {
+            return "M-variables n30 to n49 and n61 to n79 of motor n (M161) are for reading its registers, "
+                   "where "
+                   "a value would go: use another number";
+        } else if (one.letter == 'M' && !one.definition.empty() && points_into_memory(one)) {
             return "the guard's program or its variables could be at that address: an M-variable may point "
                    "only to X:$0 to $3, $7F0 to $7FF, $C000 to $CFFF, the dual-ported memory ($D000 to "
                    "$DFFF), the encoder "
-                   "table (Y:$720 to $73F) and X:$783 to $787";
+                   "table (Y:$720 to $73F) and X:$783 to $787; to read registers of motors ($20 to $1FF, "
+                   "$800 to "
+                   "$FFF), use M-variables n30 to n49 and n61 to n79 of motor n (M161->D:$28)";
         }
     }
     return "";

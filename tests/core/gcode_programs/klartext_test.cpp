@@ -88,6 +88,39 @@ TEST(Klartext, ReadsSwitches) {
     EXPECT_EQ(steps[7].kind, StepKind::end);
 }
 
+// TOOL CALL with S alone, or with the tool that is in the spindle, changes the speed of a spindle that turns.
+TEST(Klartext, KeepsASpeedThatAToolCallChangesOnTheWay) {
+    const auto steps = read_klartext({"TOOL CALL 3 Z S9000",
+                                      "L X+1 FMAX M4",
+                                      "TOOL CALL 3 Z S7000",
+                                      "L X+2 FMAX",
+                                      "TOOL CALL S5000",
+                                      "TOOL CALL S4000",
+                                      "M3", // says it
+                                      "TOOL CALL Z S4000",
+                                      "L X+3 FMAX",
+                                      "TOOL CALL Z S2000",
+                                      "M5",
+                                      "TOOL CALL Z S1000",
+                                      "L X+4 FMAX M30"});
+    std::vector<std::pair<StepKind, double>> found;
+    for (const WrittenStep& step : steps) {
+        found.emplace_back(step.kind, step.kind == StepKind::spindle_on ? step.value : 0.0);
+    }
+    const std::vector<std::pair<StepKind, double>> expected{{StepKind::tool, 0.0},
+                                                            {StepKind::spindle_on, -9000.0},
+                                                            {StepKind::rapid, 0.0},
+                                                            {StepKind::spindle_on, -7000.0},
+                                                            {StepKind::rapid, 0.0},
+                                                            {StepKind::spindle_on, 4000.0},
+                                                            {StepKind::rapid, 0.0},
+                                                            {StepKind::spindle_off, 0.0},
+                                                            {StepKind::rapid, 0.0},
+                                                            {StepKind::end, 0.0}};
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(steps[3].line, 4); // the first line begins the program
+}
+
 TEST(Klartext, KnowsWhenTheTipIsKept) {
     const auto steps = read_klartext({"L X+1 FMAX",
                                       "FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS",

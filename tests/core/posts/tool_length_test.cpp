@@ -185,6 +185,53 @@ TEST(ToolLengths, EachControlCallsTheToolInItsOwnWords) {
     EXPECT_THAT(text_of("heidenhain"), HasSubstr("TOOL CALL 12 Z\n"));
 }
 
+/// Of a program without a tool of its own that stops for these.
+program::Program program_that_stops_for(const MachineModel& machine, const std::vector<std::string>& texts) {
+    program::Program program = program_for(machine, std::nullopt);
+    program::Block spindle = program.blocks.front();
+    spindle.kind = program::BlockKind::spindle_on;
+    spindle.named = {};
+    spindle.spindle_rpm = 5000.0;
+    program.blocks.insert(program.blocks.begin(), spindle);
+    for (const std::string& text : texts) {
+        program::Block pause = spindle;
+        pause.kind = text.starts_with("tool ") ? program::BlockKind::comment : program::BlockKind::pause;
+        pause.pause = program::PauseKind::tool_change;
+        pause.spindle_rpm = 0.0;
+        pause.text = text;
+        program.blocks.insert(program.blocks.begin(), pause);
+    }
+    return program;
+}
+
+// A control that keeps the tip takes its length from the tool that is called: tool 1 was called whatever the
+// operator had put in.
+TEST(ToolLengths, TheToolThatTheOperatorPutsInIsTheOneThatIsCalled) {
+    const MachineModel machine = test::machine("ac-table");
+    const auto text_of = [&](std::string_view post, const std::vector<std::string>& pauses) {
+        return release(program_that_stops_for(machine, pauses), machine, post_of(post)).listing.text;
+    };
+    for (const char* text : {"change to tool 3", "put in tool 3", "tool 3"}) {
+        EXPECT_THAT(text_of("heidenhain", {text, "pallet change"}), HasSubstr("TOOL CALL 3 Z S5000\n"))
+            << text;
+        EXPECT_THAT(text_of("fanuc-tcp", {text}), HasSubstr("G43.4 H3\n")) << text;
+    }
+    EXPECT_THAT(text_of("heidenhain", {"change to tool 3", "change to tool 3"}),
+                HasSubstr("TOOL CALL 3 Z S"));
+    EXPECT_THAT(text_of("heidenhain", {"change to tool 3 and 4"}), HasSubstr("TOOL CALL 1 Z S"));
+    const std::vector<std::string> two{"change to tool 12", "put in tool 3"};
+    for (const char* post : {"heidenhain", "fanuc-tcp"}) {
+        try {
+            (void)text_of(post, two);
+            FAIL() << post;
+        } catch (const Error& error) {
+            EXPECT_THAT(error.what(), HasSubstr("the program uses tools 3 and 12")) << post;
+            EXPECT_EQ(error.diagnostic().hint, "divide the program at its tool changes");
+        }
+    }
+    EXPECT_NO_THROW((void)text_of("linuxcnc", two));
+}
+
 TEST(ToolLengths, GrblIsToldNothingAndThePersonWhatToDo) {
     const MachineModel machine = test::machine("router-xyz").with_tool_length(60.0);
     const program::Program program = program_for(machine, program::ProgramTool{3, 0.0});

@@ -37,6 +37,11 @@ protected:
     [[nodiscard]] bool waits() {
         return actions::waits_for_tool(status()) && status().state == DriverState::holding;
     }
+    /// By one report: the controller's own position is ahead of a window that still says that it waits, and a
+    /// machine that jogs takes no zero.
+    [[nodiscard]] bool rests_below(int axis, double position) {
+        return waits() && status().position[axis] < position;
+    }
     [[nodiscard]] std::string name(const std::string& what) const {
         return what + "-" + std::to_string(GetParam().width);
     }
@@ -60,9 +65,9 @@ TEST_P(ToolChangeAtGrbl, WaitsWhileThePersonJogsAndZeroesAndGoesOnWithContinue) 
         EXPECT_EQ(person.refusal(button), "") << button;
     }
     person.click("hand/jog/minus_X");
-    ASSERT_TRUE(person.live_until([this] { return waits() && grbl.position()[0] < -4.9; }));
+    ASSERT_TRUE(person.live_until([this] { return rests_below(0, -4.9); }));
     person.click("hand/jog/minus_Z");
-    ASSERT_TRUE(person.live_until([this] { return waits() && grbl.position()[2] < -3.9; }));
+    ASSERT_TRUE(person.live_until([this] { return rests_below(2, -3.9); }));
     person.click("hand/position/zero_Z");
     ASSERT_TRUE(person.live_until([this] { return waits() && status().work_offset[2] < -3.9; }));
     EXPECT_TRUE(person.app().look().job.running);

@@ -176,7 +176,6 @@ void GrblSession::answered(const SentLine& line) {
     } else if (line.kind == LineKind::home && stage_ == Stage::homing) {
         stage_ = Stage::ready;
         doubt_.homed();
-        report_.reset(); // where it is now, the next one tells
     } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
         ask_next();
     }
@@ -217,7 +216,12 @@ void GrblSession::handle(const Ack&, double now) {
     last_answer_ = now;
     idle_unanswered_ = 0;
     rest_reports_ = stage_ == Stage::jogging ? 0 : rest_reports_;
+    const bool homes = stage_ == Stage::homing;
     answered(window_.pop());
+    if (homes && stage_ == Stage::ready) {
+        at_ = change_ ? at_ : Activity::homing;
+        ask_again(Stage::ready, now); // homing runs the start-up lines, which may set other modes and offsets
+    }
     if (stage_ == Stage::jogging && jog_stopping_) {
         cancel_jog(now); // it read that line after the cancel, and may have begun it
     }

@@ -23,6 +23,14 @@ int in_row(int address, int begin, int step, int count) {
     return away >= 0 && away % step == 0 && away / step < count ? away / step : -1;
 }
 
+/// Half of a position of a motor, which has 32 parts in `scaled` = counts times Ix08.
+std::uint32_t position_word(char side, double scaled) {
+    constexpr double parts = 32.0;
+    constexpr int half_bits = 24;
+    const std::int64_t all = std::llround(scaled * parts);
+    return static_cast<std::uint32_t>(side == 'X' ? all >> half_bits : all) & word_mask;
+}
+
 } // namespace
 
 bool Card::compare_output() const {
@@ -47,7 +55,8 @@ std::optional<std::uint32_t> Card::output_word(int address) const {
 }
 
 std::optional<std::uint32_t> Card::read(char side, int address) const {
-    constexpr int motor_step = 0x3C, status_step = 0xC0;
+    constexpr int motor_step = 0x3C, status_step = 0xC0, per_motor = 100, position_scale = 8;
+    constexpr int commanded = 0x28, actual = 0x2B; // of motor 1
     if (const int n = channel_of_flags(address); side == 'X' && n >= 0) {
         std::uint32_t word = flag_words_[static_cast<std::size_t>(n)];
         if (n < channel_count()) {
@@ -69,6 +78,12 @@ std::optional<std::uint32_t> Card::read(char side, int address) const {
     }
     if (const auto output = side == 'Y' ? output_word(address) : std::nullopt) {
         return output;
+    }
+    for (const int begin : {commanded, actual}) {
+        if (const int n = in_row(address, begin, motor_step, motors); n >= 0) {
+            const double counts = begin == commanded ? motor(n).command() : motor(n).actual();
+            return position_word(side, counts * i(per_motor * (n + 1) + position_scale));
+        }
     }
     if (side == 'X' && address == 0) { // servo cycles
         return static_cast<std::uint32_t>(cycles_) & word_mask;

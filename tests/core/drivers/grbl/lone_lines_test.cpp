@@ -1,6 +1,8 @@
 // Lines that a Grbl must be sent alone: those that write its EEPROM, and changes of the work offset where its
 // reports give work positions.
+#include "core/base/files.h"
 #include "tests/core/drivers/grbl/grbl_wire.h"
+#include "tests/support/scratch_folder.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -179,6 +181,19 @@ TEST(GrblHoming, ThatFailsEndsInTheAlarmThatSaysWhy) {
     wire.run_until([] { return false; }, 1.0);
     wire.session.reset(wire.now);
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
+}
+
+// Homing runs the start-up lines of a Grbl that has begun locked: they may set other modes and offsets.
+TEST(GrblHoming, IsFollowedByTheModesThatTheStartupLinesSet) {
+    const test::ScratchFolder scratch;
+    write_file(scratch / "eeprom", "$22=1\n$25=3000\n$N0=G20G91G55\n");
+    GrblWire wire({}, {.eeprom_file = scratch / "eeprom"});
+    ASSERT_EQ(wire.state(), DriverState::alarm);
+    EXPECT_THAT(wire.session.status().modes, HasSubstr("G54 G17 G21 G90"));
+    wire.session.home(wire.now);
+    ASSERT_TRUE(wire.run_until([&] { return !is_at_work(wire.state()); }, 60.0));
+    EXPECT_EQ(wire.state(), DriverState::idle);
+    EXPECT_THAT(wire.session.status().modes, HasSubstr("G55 G17 G20 G91"));
 }
 
 TEST(GrblOpening, KnowsThatTheBoardBeganAnew) {

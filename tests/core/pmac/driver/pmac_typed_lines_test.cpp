@@ -237,6 +237,26 @@ TEST(PmacTypedLines, TakesNoJogWithoutAnEnd) {
     EXPECT_EQ(wire.card.command(1), 0.0);
 }
 
+// The usual M-variables of a card: they read a motor, and take no value.
+TEST(PmacTypedLines, ReadTheRegistersOfAMotorAndWriteNone) {
+    PmacWire wire;
+    (void)wire.session.command({"#2J:300"}, false);
+    ASSERT_TRUE(wire.run_to_end(10.0));
+    (void)wire.session.command({"M261->D:$64", "M262->D:$67", "M239->Y:$8D4,14", "M261", "M262", "M239"},
+                               false);
+    ASSERT_TRUE(line_is_answered(wire));
+    ASSERT_EQ(wire.session.status().answer.state, drivers::CommandAnswer::State::done)
+        << wire.session.status().answer.text;
+    const double unit = 32.0 * wire.card.variable('I', 208); // in a count
+    EXPECT_NEAR(wire.card.variable('M', 261) / unit, wire.card.command(2), 1e-3);
+    EXPECT_NEAR(wire.card.variable('M', 261) / unit, 300.0, 1e-3);
+    EXPECT_NEAR(wire.card.variable('M', 262) / unit, 300.0, 3.0);
+    EXPECT_EQ(wire.card.variable('M', 239), 1.0); // amplifier enabled
+    EXPECT_THAT(refusal([&] { (void)wire.session.command({"M261=0"}, false); }), HasSubstr("for reading"));
+    wire.pass(0.5);
+    EXPECT_NEAR(wire.card.command(2), 300.0, 1e-9);
+}
+
 // What a test of a motor had borrowed is given back.
 TEST(PmacTypedLines, SetsVariablesAloneInAnAlarm) {
     PmacWire wire;
