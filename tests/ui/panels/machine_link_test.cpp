@@ -202,7 +202,7 @@ TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     connect();
     const auto doubt = [this] { return machine().status.position_doubt; };
     person.frames(3);
-    ASSERT_TRUE(person.click_when_offered("hand/messages/machine_trust_position")); // it stood at zero
+    person.click("hand/messages/machine_trust_position"); // it stood at zero, and somebody looks
     ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
     person.frames(3);
     EXPECT_FALSE(person.sees("alarm/message"));
@@ -233,7 +233,7 @@ TEST_F(MachineLink, RemembersThatThePositionMayBeLost) {
     connect_again();
     EXPECT_THAT(doubt(), HasSubstr("alarm 1"));
     person.keep("machine-position-doubt");
-    ASSERT_TRUE(person.click_when_offered("hand/messages/machine_trust_position"));
+    person.click("hand/messages/machine_trust_position");
     ASSERT_TRUE(person.live_until([&] { return doubt().empty(); }));
     connect_again();
     EXPECT_THAT(doubt(), Not(HasSubstr("alarm 1")));
