@@ -52,7 +52,7 @@ arm::JointPositions start_of(const ArmModel& arm, const ArmSimulationOptions& op
 }
 
 /// A ; at the end of a line. In G-code it begins a comment.
-bool ends_a_block(const std::string& text) {
+bool has_block_end(const std::string& text) {
     for (std::size_t at = text.find(';'); at != std::string::npos; at = text.find(';', at + 1)) {
         const std::size_t next = text.find_first_not_of(" \t\r", at + 1);
         if (next == std::string::npos || text[next] == '\n') {
@@ -66,7 +66,7 @@ int simulate(const ArmSimulationOptions& options) {
     const ArmModel arm = arm_of(options.arm);
     const arm::JointPositions start = start_of(arm, options);
     const std::string text = read_file(options.file);
-    if (!ends_a_block(text)) {
+    if (!has_block_end(text)) {
         throw Error("this is not a motion file: none of its blocks ends with ;",
                     options.file,
                     "'millwright arm reach' takes G-code");

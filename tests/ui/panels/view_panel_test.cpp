@@ -84,9 +84,9 @@ TEST(ViewPanel, IsFittedAgainWhenItsSizeChanges) {
     EXPECT_LE(beyond_the_buttons(person), 0.0F);
     const float wide = person.place("view").w;
     const widgets::Point bar = person.place("splitters/inspector").centre();
-    person.drag(bar, {bar.x - 400.0F, bar.y});
+    person.drag(bar, {bar.x - 340.0F, bar.y});
     person.frames(3);
-    EXPECT_LT(person.place("view").w, wide - 350.0F);
+    EXPECT_LT(person.place("view").w, wide - 300.0F);
     EXPECT_LE(beyond_the_buttons(person), 0.0F);
 }
 
