@@ -91,7 +91,7 @@ void resolution_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const double resolution = forecast ? forecast->resolution : settings.resolution.value_or(usual);
     if (const auto on =
             ui.toggle("auto",
-                      "Automatic resolution",
+                      "Auto resolution",
                       !settings.resolution,
                       "1/400 of the longest edge of the stock, coarser where the memory is short")) {
         ask.show([on = *on, resolution](actions::ViewState& view_state) {
@@ -266,7 +266,7 @@ void stock_outcome(Ui& ui,
         return;
     }
     if (const auto shown = ui.toggle("shown",
-                                     "Show remaining stock",
+                                     "Show stock",
                                      now.view_state.stock.shown,
                                      "Draws the material in place of the surface, at the current playback "
                                      "position")) {

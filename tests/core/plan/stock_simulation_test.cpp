@@ -54,7 +54,7 @@ TEST(PartHeights, AreDistancesAlongTheNormalWithinTheFace) {
             EXPECT_NEAR(*found, height, 1e-6);
         }
     }
-    const Vec3 beside = setup.patch.control_box().max() + Vec3(20.0, 20.0, 0.0);
+    const Vec3 beside = setup.patch.position(0.0, 0.0) - Vec3(20.0, 20.0, 0.0);
     EXPECT_FALSE(heights.at(beside));
 }
 
