@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -66,6 +67,18 @@ void refuse_folds(const JoinedSurface& surface, const FaceMesh& mesh, const Prog
     }
 }
 
+double boundary_off(const JoinedSurface& surface) {
+    constexpr int steps = 256;
+    double most = 0.0;
+    for (int side = 0; side < 4; ++side) {
+        for (int n = 0; n < steps; ++n) {
+            const Vec2 place = place_on_side(side, static_cast<double>(n) / steps);
+            most = std::max(most, surface.off_boundary(place).value_or(0.0));
+        }
+    }
+    return most;
+}
+
 } // namespace
 
 JoinedRegion
@@ -89,8 +102,9 @@ joined_region(std::span<const ExactFace> faces, const JoinSettings& settings, co
                           std::make_shared<const PlaceLookup>(mesh, flat.places),
                           std::make_shared<const FaceNeighbours>(faces.size(), *mesh));
     refuse_folds(surface, *mesh, progress.part(0.9, 1.0));
+    const double off = boundary_off(surface);
     progress.report(1.0);
-    return {Region(std::make_shared<const JoinedFaces>(std::move(surface))), *mesh, std::move(flat)};
+    return {Region(std::make_shared<const JoinedFaces>(std::move(surface))), *mesh, std::move(flat), off};
 }
 
 } // namespace millwright::region

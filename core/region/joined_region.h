@@ -26,6 +26,9 @@ struct JoinedRegion {
     Region region;
     FaceMesh mesh;
     Flattening flattening; ///< of the mesh
+    /// How far the border of the region is at most from the boundary of the faces, beyond it or short of it,
+    /// at 256 places of each side, mm. Beyond it the faces are continued.
+    double boundary_off = 0.0;
 };
 
 /// Throws Error with the place as `face_mesh` and `flattened`, where a border is sharp and where the smooth

@@ -217,6 +217,21 @@ OnFace JoinedSurface::on_face(const Vec2& place) const {
     return foot(place, map_.position(place.x(), place.y())).on;
 }
 
+std::optional<double> JoinedSurface::off_boundary(const Vec2& place) const {
+    const OnFace on = on_face(place);
+    const geometry::BsplineSurface& face = faces_[static_cast<std::size_t>(on.face)];
+    const Vec3 here = face.position(on.uv.x(), on.uv.y());
+    std::optional<double> least;
+    for (const Exit& exit : exits(on.uv)) {
+        if (!neighbours_->across(on.face, exit.side, exit.along)) {
+            const Vec2 uv = place_on_side(exit.side, std::clamp(exit.along, 0.0, 1.0));
+            const double off = (face.position(uv.x(), uv.y()) - here).norm();
+            least = std::min(least.value_or(off), off);
+        }
+    }
+    return least;
+}
+
 JoinedSurface JoinedSurface::turned(double turn) const {
     std::vector<geometry::BsplineSurface> faces;
     for (const geometry::BsplineSurface& face : faces_) {

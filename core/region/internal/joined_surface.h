@@ -45,6 +45,9 @@ public:
 
     /// The exact face there. Beside the boundary its parameters may lie a little beyond [0,1].
     [[nodiscard]] OnFace on_face(const Vec2& place) const;
+    /// Of a place on the border of the square: how far the surface is from the boundary of the faces there,
+    /// beyond it or short of it, mm. Nothing where the face there has no part in that.
+    [[nodiscard]] std::optional<double> off_boundary(const Vec2& place) const;
     [[nodiscard]] const std::vector<geometry::BsplineSurface>& faces() const { return faces_; }
     /// About z through the origin, rad, counter-clockwise seen from above.
     [[nodiscard]] JoinedSurface turned(double turn) const;

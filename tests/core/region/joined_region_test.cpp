@@ -76,7 +76,8 @@ TEST(JoinedRegion, SpreadOutHardlyDependsOnTheDivision) {
 
 TEST(JoinedRegion, MeetsTheBoundaryOfItsFaces) {
     const BezierPatch whole = test::patch_of("two-bell");
-    const Region region = joined(test::quarters(whole, 0.4, 0.6), spread_out(whole)).region;
+    const JoinedRegion made = joined(test::quarters(whole, 0.4, 0.6), spread_out(whole));
+    const Region& region = made.region;
     const geometry::ClosestPointSearch search(whole);
     double inside = 0.0, beyond = 0.0; // mm
     for (int n = 0; n <= 200; ++n) {
@@ -90,6 +91,28 @@ TEST(JoinedRegion, MeetsTheBoundaryOfItsFaces) {
     }
     EXPECT_LT(inside, 0.01);
     EXPECT_LT(beyond, 0.01);
+    EXPECT_LT(made.boundary_off, 0.01);
+    EXPECT_GT(made.boundary_off, 0.5 * beyond);
+}
+
+// An L has corners within the sides of the square: they are rounded off, and that is measured.
+TEST(JoinedRegion, ReportsHowFarItIsFromTheBoundary) {
+    const double off =
+        joined({rectangle(0, 0, 20, 20), rectangle(20, 0, 20, 20), rectangle(0, 20, 20, 20)}).boundary_off;
+    EXPECT_GT(off, 0.02);
+    EXPECT_LT(off, 0.5);
+}
+
+TEST(JoinedRegion, RefusesCornersByWhichTheSurfaceFolds) {
+    JoinSettings settings;
+    settings.corners = {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(40, 20, 0), Vec3(0, 20, 0)}; // (40, 0) is none
+    try {
+        (void)joined({rectangle(0, 0, 20, 20), rectangle(20, 0, 20, 20)}, settings);
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.diagnostic().message.find("the surface over the faces folds at x "), 0U)
+            << error.diagnostic().message;
+    }
 }
 
 TEST(JoinedRegion, HasTheDerivativesOfItsPositions) {
