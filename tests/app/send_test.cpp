@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <csignal>
+#include <filesystem>
+#include <sstream>
 #include <utility>
 
 namespace millwright::test {
