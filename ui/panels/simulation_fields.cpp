@@ -182,7 +182,8 @@ void worst_value(Ui& ui,
             ? std::string("uncut")
             : fmt::format("line {}",
                           result.job.listing->line_of_block[static_cast<std::size_t>(worst->block)]);
-    ui.value(id + "_at", "   at x, y, z", place_text(worst->point) + "  (" + line + ")");
+    ui.value(id + "_at", "   at x, y, z", place_text(worst->point));
+    ui.value(id + "_line", "   by", line);
 }
 
 void stock_figures(Ui& ui, const FrameState& now, const plan::StockResult& result) {
