@@ -136,9 +136,13 @@ void ProcessorWorkspace::compile_gcode() {
     cordic_machine::CordicProgramBuilder builder(name_, wanted);
     gcode::ReaderSettings reading;
     reading.any_tool = true;
+    reading.may_lack_end = true; // HLT ends it
     gcode::Interpreter program(std::string_view(source_text_), name_, std::move(reading), builder);
     program.run();
     program_ = builder.take();
+    if (auto notice = program.end_notice()) {
+        program_.warnings.push_back(std::move(*notice));
+    }
     if (!program.errors().empty()) {
         failure_ = program.errors().front();
     } else if (!program_.faults.empty()) {

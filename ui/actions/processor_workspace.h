@@ -67,6 +67,9 @@ public:
     [[nodiscard]] const ProcessorTexts& written() const { return texts_; }
     /// Of the program that is executed; not of one with a failure.
     [[nodiscard]] const cordic::Image& image() const { return program_.image; }
+    /// What is left out of the program or done otherwise. Without a line: of all of it, as that its text has
+    /// no M2, M30 or %; it is executed all the same.
+    [[nodiscard]] const std::vector<Diagnostic>& warnings() const { return program_.warnings; }
     /// Why it, or the microprogram, cannot be executed; there is then nothing to execute.
     [[nodiscard]] const std::optional<Diagnostic>& failure() const { return failure_; }
 

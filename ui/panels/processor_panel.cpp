@@ -346,6 +346,11 @@ void ProcessorPanel::draw_errors(Ui& ui, const FrameState& now) const {
         ui.text(to_text(*now.processor.failure()));
         return;
     }
+    for (const Diagnostic& warning : now.processor.warnings()) {
+        if (warning.place.line == 0) {
+            ui.note(to_text(warning));
+        }
+    }
     const cordic::RunReport& report = now.processor.report();
     constexpr double micrometres = 1e3;
     const bool stopped = report.stop != cordic::Stop::none && report.stop != cordic::Stop::halted;

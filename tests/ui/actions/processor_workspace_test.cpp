@@ -125,6 +125,17 @@ TEST(ProcessorWorkspace, ForgetsALongProgramForTheNextOne) {
     EXPECT_EQ(workspace.differences().size(), 4U);
 }
 
+TEST(ProcessorWorkspace, RunsAProgramWithoutAnEndAndSaysThatItHasNone) {
+    const ProcessorWorkspace workspace = loaded("G21 G90\nG0 X1\nG1 X5 F100\n");
+    ASSERT_FALSE(workspace.failure()) << workspace.failure()->message;
+    EXPECT_GT(workspace.set_points(), 0U);
+    ASSERT_EQ(workspace.warnings().size(), 1U);
+    EXPECT_EQ(workspace.warnings()[0].place.line, 0);
+    EXPECT_EQ(workspace.warnings()[0].message,
+              "the program does not end with M2, M30 or %; it was read to its last line");
+    EXPECT_TRUE(loaded("G21\nG0 X1\nM2\n").warnings().empty());
+}
+
 TEST(ProcessorWorkspace, KeepsWhatIsWrongWithAProgramAndExecutesNothing) {
     ProcessorWorkspace workspace = loaded("G21\nG0 X1 C5\nM2\n");
     ASSERT_TRUE(workspace.failure());
