@@ -109,8 +109,7 @@ std::string command_words(const CLI::App& app) {
 constexpr std::string_view help_word = "help";
 
 /// "plan --help" of "help plan", in the order that CLI11 takes: the last one first.
-std::vector<std::string> arguments_of_help(int argc, char** argv) {
-    std::vector<std::string> words(argv + 2, argv + argc);
+std::vector<std::string> arguments_of_help(std::vector<std::string> words) {
     words.emplace_back("--help");
     std::reverse(words.begin(), words.end());
     return words;
@@ -156,9 +155,23 @@ int main(int argc, char** argv) {
     add_commands(app, chosen);
     add_threads_option(app);
     expect_finite_numbers(app);
+    const bool asks_for_help = argc > 1 && argv[1] == help_word && !std::filesystem::exists(help_word);
+    const std::vector<std::string> arguments(argv + std::min(argc, asks_for_help ? 2 : 1), argv + argc);
+    const auto refuse = [&](const std::string& what) {
+        const std::string meant = suggestion_for(app, arguments);
+        fmt::print(stderr,
+                   "millwright: {}{}\nRun \"{} --help\" for more.\n",
+                   unknown_command(app, arguments).value_or(what),
+                   meant.empty() ? meant : fmt::format(" ({})", meant),
+                   command_words(app));
+        return wrong_usage;
+    };
+    if (asks_for_help && unknown_command(app, arguments)) {
+        return refuse({});
+    }
     try {
-        if (argc > 1 && argv[1] == help_word && !std::filesystem::exists(help_word)) {
-            app.parse(arguments_of_help(argc, argv));
+        if (asks_for_help) {
+            app.parse(arguments_of_help(arguments));
         } else {
             app.parse(argc, argv);
         }
@@ -171,14 +184,7 @@ int main(int argc, char** argv) {
                 return exit_code;
             });
         }
-        const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
-        const std::string meant = suggestion_for(app, arguments);
-        fmt::print(stderr,
-                   "millwright: {}{}\nRun \"{} --help\" for more.\n",
-                   unknown_command(app, arguments).value_or(parsed.what()),
-                   meant.empty() ? meant : fmt::format(" ({})", meant),
-                   command_words(app));
-        return wrong_usage;
+        return refuse(parsed.what());
     }
     return run([&] {
         expect_full_lists(app, {argv, static_cast<std::size_t>(argc)});

@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <numeric>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -108,7 +110,9 @@ std::optional<std::string> unknown_command(const CLI::App& app, std::span<const 
             if (at != &app) {
                 return fmt::format("'{}{}' is not a command", words, argument);
             }
-            const bool may_be_file = argument.find_first_of("./") != std::string::npos;
+            std::error_code unreadable;
+            const bool may_be_file = argument.find_first_of("./") != std::string::npos ||
+                                     std::filesystem::exists(argument, unreadable);
             return may_be_file ? std::nullopt
                                : std::optional(fmt::format("'{}' is neither a command nor a file", argument));
         }

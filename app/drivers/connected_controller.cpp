@@ -100,6 +100,7 @@ ConnectedController::~ConnectedController() {
 }
 
 void ConnectedController::check(const jobs::Job& job) {
+    expect_keys(job);
     driver_->check(*job.listing, job.project);
     checked_.push_back(job);
 }
@@ -327,20 +328,24 @@ void ConnectedController::say_what_is_left_out(const jobs::Job& job) const {
     }
 }
 
-/// No zero can be set here while the job waits. Throws Error where nobody could end the wait.
-void ConnectedController::say_what_is_not_measured(const jobs::Job& job) const {
-    const auto calls = jobs::tool_calls(job.listing->text);
-    if (calls.empty()) {
+/// Throws Error where the job would wait at a tool change and no key could end the wait.
+void ConnectedController::expect_keys(const jobs::Job& job) const {
+    if (!job.tool_change || choice_.check_only || choice_.trace_box || choice_.keys ||
+        ::isatty(STDIN_FILENO) != 0) {
         return;
     }
-    const bool waits =
-        std::ranges::any_of(calls, [&](const auto& call) { return call.line >= job.from_line; });
-    if (waits && !choice_.keys && ::isatty(STDIN_FILENO) == 0) {
+    const auto calls = jobs::tool_calls(job.listing->text);
+    if (std::ranges::any_of(calls, [&](const auto& call) { return call.line >= job.from_line; })) {
         throw Error("the job would wait at its tool change for the key r, but the input is not a terminal",
                     {job.project},
                     "run it at a terminal, or accept keys from this input with --keys");
     }
-    if (job.tool_change->way == drivers::ToolChangeWay::stop) {
+}
+
+/// No zero can be set here while the job waits.
+void ConnectedController::say_what_is_not_measured(const jobs::Job& job) const {
+    if (job.tool_change->way == drivers::ToolChangeWay::stop &&
+        !jobs::tool_calls(job.listing->text).empty()) {
         fmt::print(stderr,
                    "millwright: {}: after a tool change the job continues with the current Z zero. Use tools "
                    "of the same length (stop collars), or --tool-change probe; in the window you can set the "

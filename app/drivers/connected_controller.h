@@ -98,6 +98,7 @@ private:
     [[nodiscard]] std::optional<jobs::ProgramCheck> program_check_of(const jobs::Job& job) const;
     void show_warnings(const jobs::Job& job) const;
     void say_what_is_left_out(const jobs::Job& job) const;
+    void expect_keys(const jobs::Job& job) const;
     void say_what_is_not_measured(const jobs::Job& job) const;
     void expect_tool_changes(const jobs::Job& job) const;
     void ask_for_tool(const jobs::Job& job, const std::stop_token& stop) const;

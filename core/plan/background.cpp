@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 
+#include <cstddef>
 #include <utility>
 
 namespace millwright::plan {
@@ -25,13 +26,24 @@ void Background::append(Job job) {
 void Background::clear() {
     const std::scoped_lock lock(mutex_);
     jobs_.clear();
+    closes_ = false;
     running_.request_stop();
     changed_.notify_all();
 }
 
 void Background::replace(Job job) {
     const std::scoped_lock lock(mutex_);
+    put_in_place(std::move(job), false);
+}
+
+void Background::end_with(Job job) {
+    const std::scoped_lock lock(mutex_);
+    put_in_place(std::move(job), true);
+}
+
+void Background::put_in_place(Job job, bool closes) {
     jobs_.clear();
+    closes_ = closes;
     running_.request_stop();
     jobs_.push_back(std::move(job));
     changed_.notify_all();
@@ -41,7 +53,8 @@ Activity Background::activity() const {
     const std::scoped_lock lock(mutex_);
     Activity now = activity_;
     now.busy = working_ || !jobs_.empty();
-    now.stopping = working_ && jobs_.empty() && running_.stop_requested();
+    const std::size_t closing = closes_ ? 1 : 0;
+    now.stopping = working_ && jobs_.size() == closing && running_.stop_requested();
     return now;
 }
 
@@ -61,6 +74,7 @@ void Background::work(const std::stop_token& quit) {
             }
             job = std::move(jobs_.front());
             jobs_.pop_front();
+            closes_ = false;
             running_ = std::stop_source();
             stop = running_.get_token();
             working_ = true;

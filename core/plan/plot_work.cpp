@@ -26,7 +26,7 @@ public:
         background_.append([this](const Progress& progress) { derive_program(progress); });
     }
     void cancel() {
-        background_.replace([this](const Progress& progress) { end_reading(progress); });
+        background_.end_with([this](const Progress& progress) { end_reading(progress); });
     }
 
     [[nodiscard]] std::shared_ptr<const PlotResult> latest() const { return published_.latest(); }
@@ -77,14 +77,16 @@ PlotWorker::PlotWorker(fs::path assets, std::function<void()> wake)
 
 PlotWorker::~PlotWorker() = default;
 
-void PlotWorker::request(const project::PlotInput& input) {
+std::uint64_t PlotWorker::request(const project::PlotInput& input) {
     PlotResult start;
+    start.request = ++requests_;
     start.input = input;
     if (const auto before = latest(); before && before->input.file == input.file) {
         start.program = before->program; // can be played until the new one is there
         start.opened = before->opened && before->opened->finished ? before->opened : nullptr;
     }
     worker_->request(std::move(start));
+    return requests_;
 }
 
 void PlotWorker::request_program() {

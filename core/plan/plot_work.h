@@ -81,6 +81,7 @@ struct PlotResult {
     std::shared_ptr<const OpenedProgram> opened; ///< that program, and how it moves the machine
     bool finished = false;                       ///< all but how the program moves the machine
     std::uint64_t revision = 0;                  ///< grows with every publication
+    std::uint64_t request = 0;                   ///< which request it answers, see PlotWorker::request
     std::optional<plot::CarvingFigures> carved;  ///< of a V-carving
     bool cut_as_drawn = false;                   ///< filling, order and links change nothing
     /// By the planner, as drawn, s; nullopt where it is cut as drawn, where that cannot be run, or where
@@ -106,8 +107,9 @@ public:
     PlotWorker& operator=(const PlotWorker&) = delete;
     ~PlotWorker();
 
-    /// Derives everything anew; what is shown stays until something new is there.
-    void request(const project::PlotInput& input);
+    /// Derives everything anew; what is shown stays until something new is there. The number of the request,
+    /// from 1.
+    std::uint64_t request(const project::PlotInput& input);
     /// Of a path that is too long to get one automatically; published as the rest.
     void request_program();
     void cancel();
@@ -120,6 +122,7 @@ public:
 private:
     class Worker;
     std::unique_ptr<Worker> worker_;
+    std::uint64_t requests_ = 0;
 };
 
 } // namespace millwright::plan

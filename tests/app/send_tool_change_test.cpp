@@ -77,15 +77,18 @@ TEST_F(SendToolChange, StopsForAnotherToolWhereGrblCannot) {
 }
 
 // It waited for ever.
-TEST_F(SendToolChange, IsRefusedWhereNoKeyCouldEndTheWait) {
+TEST_F(SendToolChange, IsRefusedWhereNoKeyCouldEndTheWaitBeforeAnythingMoves) {
+    const std::string eeprom = (scratch / "eeprom").string();
+    write_content(eeprom, "$22=1\n");
     write_content(file, "G21 G90 G94\nG0 Z5\nG1 X5 Y5 F3000\nT3 M6\nG1 X9\nG0 Z5\nM30\n");
-    Emulator emulator(port, {"--speed", "20"});
+    Emulator emulator(port, {"--eeprom", eeprom, "--speed", "20"});
     std::vector<std::string> all = words();
     std::erase(all, "--keys");
-    all.insert(all.end(), {"--tool-change", "stop"});
+    all.insert(all.end(), {"--tool-change", "stop", "--home"});
     const Ended ended = run(all);
     EXPECT_EQ(ended.exit_code, 1) << ended.err;
     EXPECT_THAT(ended.err, HasSubstr("for the key r, but the input is not a terminal"));
+    EXPECT_THAT(ended.out, testing::Not(HasSubstr("Connected")));
     EXPECT_TRUE(records().empty()) << "nothing was sent";
     (void)emulator.stop();
 }

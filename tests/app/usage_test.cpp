@@ -1,9 +1,11 @@
 #include "tests/app/program.h"
 #include "tests/app/shipped_files.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -213,6 +215,9 @@ TEST(Usage, HelpIsACommandToo) {
     EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
     EXPECT_EQ(run({"help", "arm", "reach"}).out, run({"arm", "reach", "--help"}).out);
     EXPECT_EQ(run({"help", "arm", "reach"}).exit_code, 0);
+    expect_wrong_usage({"help", "plann"}, "'plann' is neither a command nor a file (did you mean 'plan'?)");
+    expect_wrong_usage({"help", "arm", "recah"}, "'arm recah' is not a command (did you mean 'reach'?)");
+    expect_wrong_usage({"help", "help"}, "'help' is neither a command nor a file");
 }
 
 // "plann" was read as a file of that name.
@@ -226,6 +231,12 @@ TEST(Usage, AMistypedCommandOrOptionIsToldWhatWasMeant) {
     expect_wrong_usage({"gcod", "check", "x.ngc"}, "'gcod' is neither a command nor a file (did you mean");
     expect_wrong_usage({"arm", "recah", "x.ngc"}, "'arm recah' is not a command (did you mean 'reach'?)");
     expect_wrong_usage({"version"}, "'version' is neither a command nor a file ('millwright --help' lists");
+    const ScratchFolder scratch;
+    const auto here = std::filesystem::current_path();
+    write_content(scratch / "dome", "{}");
+    std::filesystem::current_path(scratch.path());
+    expect_wrong_usage({"dome", "--bogus"}, "--bogus"); // a file that is there is one
+    std::filesystem::current_path(here);
     const Ended far = run({"nonsense.ngc"});
     EXPECT_EQ(far.exit_code, 1);
     EXPECT_EQ(far.err.find("did you mean"), std::string::npos) << far.err;

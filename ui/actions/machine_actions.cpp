@@ -73,7 +73,17 @@ Permission nothing_asked(const FrameState& now) {
                       : Permission{};
 }
 
+/// What is shown there is no program of the machine before it is sent to it.
+Permission nothing_but_a_plot(const FrameState& now) {
+    return now.view_state.workspace == Workspace::plot && !now.plot.file().empty()
+               ? Permission::refused("Open the plot's program in the Machine workspace first.")
+               : Permission{};
+}
+
 Permission can_run_job(const FrameState& now) {
+    if (const Permission plot = nothing_but_a_plot(now); !plot.allowed) {
+        return plot;
+    }
     if (const Permission free = nothing_asked(now);
         !free.allowed || now.view_state.workspace != Workspace::machine) {
         return free; // from elsewhere it only goes to the machine, where the reason stands if it cannot

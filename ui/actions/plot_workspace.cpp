@@ -48,9 +48,7 @@ void PlotWorkspace::read_again() {
     if (materials_.empty()) {
         materials_ = materials_in(assets_);
     }
-    const auto made = worker_.latest();
-    before_ = made ? made->revision : 0;
-    worker_.request(input_);
+    request_ = worker_.request(input_);
 }
 
 std::shared_ptr<const plan::PlotResult> PlotWorkspace::latest() const {

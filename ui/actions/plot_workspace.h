@@ -43,7 +43,7 @@ public:
     [[nodiscard]] std::shared_ptr<const plan::OpenedProgram> opened() const;
     /// Whether `made` is what the file makes now with the settings of now.
     [[nodiscard]] bool is_current(const plan::PlotResult& made) const {
-        return made.revision > before_ && made.input == input_;
+        return made.request == request_ && made.input == input_;
     }
     [[nodiscard]] plan::Activity activity() const { return worker_.activity(); }
     /// What the settings of now ask for was given up: nothing is there of it, and nothing will be.
@@ -87,7 +87,7 @@ private:
 
     std::filesystem::path assets_;
     project::PlotInput input_;
-    std::uint64_t before_ = 0; ///< revision that was there when the file was last read
+    std::uint64_t request_ = 0; ///< with which the file was last read
     std::vector<plot::Material> materials_;
     std::optional<std::size_t> material_;
     TableChoice table_choice_;

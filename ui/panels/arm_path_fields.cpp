@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<widgets::Option, 2> sources{
     {{"project", "Project", {}, "Program generated from the project's surface"},
-     {"file", "Opened file", {}, "G-code file that is open in the Program workspace, such as a plot"}}};
+     {"file", "Opened file", {}, "The open G-code file, or the plot's program if no file is open"}}};
 
 void place_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const project::PathPlace& place = now.project.arm.path;
@@ -124,7 +124,7 @@ std::string why_none(const FrameState& now) {
     if (!now.view_state.manual.arm_path_of_file || !now.opened) {
         return "The project has no program yet.";
     }
-    return now.opened->no_motion.empty() ? "Reading the file \u2026" : now.opened->no_motion;
+    return now.opened->no_motion.empty() ? "Reading the program \u2026" : now.opened->no_motion;
 }
 
 void source_field(Ui& ui, const FrameState& now, ActionQueue& ask) {

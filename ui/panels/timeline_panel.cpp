@@ -94,7 +94,7 @@ void TimelinePanel::draw_file(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const auto place = now.file_place();
     if (!place) {
         view.permission = widgets::Permission::refused(
-            now.opened->finished ? "The program contains no motion." : "Reading the file \u2026");
+            now.opened->finished ? "The program contains no motion." : "Reading the program \u2026");
         (void)widgets::timeline(ui, "timeline", view);
         return;
     }

@@ -10,7 +10,6 @@ namespace millwright::drivers {
 
 enum class GrblFirmware { grbl, grblhal, fluidnc };
 
-/// What differs from one firmware to another, in one place.
 /// What settings look like.
 enum class SettingForm {
     numbers,           ///< numbers with numbers as values
@@ -18,6 +17,7 @@ enum class SettingForm {
     names              ///< the limits of each axis have names, too ("$/axes/x/max_travel_mm")
 };
 
+/// What differs from one firmware to another, in one place.
 struct GrblFacts {
     GrblFirmware firmware = GrblFirmware::grbl;
     std::string_view name; ///< as its makers write it

@@ -31,18 +31,22 @@ public:
     void clear();
     /// Both at once, so that no idle moment is visible in between.
     void replace(Job job);
+    /// Like clear(), with a job that closes what was stopped; until then it is stopping.
+    void end_with(Job job);
 
     [[nodiscard]] Activity activity() const;
     void wait_idle() const;
 
 private:
     void work(const std::stop_token& quit);
+    void put_in_place(Job job, bool closes); ///< of all that wait and run, under the lock
     void listen(const Progress::Report& report);
 
     std::function<void()> wake_;
     mutable std::mutex mutex_;
     mutable std::condition_variable_any changed_;
     std::deque<Job> jobs_;
+    bool closes_ = false; ///< the first of them closes what was stopped
     bool working_ = false;
     Activity activity_;
     std::stop_source running_;

@@ -343,8 +343,8 @@ std::string refused_setting(const Assignment& one) {
     }
     if (writes_outputs_elsewhere(one)) {
         return "the card writes each servo cycle to the address in Ix02 and Ix25, where the guard's program "
-               "or "
-               "its variables could be: use a number within $C000 to $CFFF, the dual-ported memory ($D000 to "
+               "or its variables could be: use a number within $C000 to $CFFF, the dual-ported memory ($D000 "
+               "to "
                "$DFFF), the encoder table ($720 to $73F) or $7F0 to $7FF";
     }
     return one.covers(servo_time, servo_time) ? "the guard counts servo cycles, whose length is set by I10"
@@ -390,17 +390,18 @@ std::string guard_refusal(std::string_view line) {
             return "P1000 to P1006 are reserved for the guard";
         } else if (one.letter == 'M' && one.covers(first_own, last_own_m)) {
             return "M1000 to M1008 are reserved for the guard";
+        } else if (one.letter == 'M' && one.definition.empty() && one.computed) {
+            return "the number of the M-variable is computed, so it could be one that is reserved for "
+                   "reading a motor's registers, or for the guard";
         } else if (one.letter == 'M' && one.definition.empty() && reads_some(one)) {
-            return "M-variables n30 to n49 and n61 to n79 of motor n (M161) are for reading its registers, "
-                   "where "
-                   "a value would go: use another number";
+            return "M-variables n30 to n49 and n61 to n79 of motor n (M161) are reserved for reading its "
+                   "registers, because a value would be written into them: use another number";
         } else if (one.letter == 'M' && !one.definition.empty() && points_into_memory(one)) {
             return "the guard's program or its variables could be at that address: an M-variable may point "
                    "only to X:$0 to $3, $7F0 to $7FF, $C000 to $CFFF, the dual-ported memory ($D000 to "
-                   "$DFFF), the encoder "
-                   "table (Y:$720 to $73F) and X:$783 to $787; to read registers of motors ($20 to $1FF, "
-                   "$800 to "
-                   "$FFF), use M-variables n30 to n49 and n61 to n79 of motor n (M161->D:$28)";
+                   "$DFFF), the encoder table (Y:$720 to $73F) and X:$783 to $787; to read registers of "
+                   "motors ($20 to $1FF, $800 to $FFF), use M-variables n30 to n49 and n61 to n79 of motor n "
+                   "(M161->D:$28)";
         }
     }
     return "";

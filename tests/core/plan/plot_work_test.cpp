@@ -360,6 +360,8 @@ TEST(PlotWork, AMotionThatIsGivenUpIsNotStillBeingRead) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         worker.cancel();
+        const Activity after = worker.activity();
+        EXPECT_TRUE(after.stopping || !after.busy) << "it is said that it is being cancelled";
         worker.wait_idle();
         ASSERT_TRUE(worker.latest()->opened);
         EXPECT_TRUE(worker.latest()->opened->finished);

@@ -239,11 +239,18 @@ TEST_F(MachineByHand, StopsWhenSomethingIsAsked) {
 
 TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
     connect();
-    start_jog();
     const auto console = person.app().look().console;
+    std::int64_t before = console->end();
+    const auto cancelled_since = [&](std::int64_t from) {
+        std::vector<drivers::ConsoleLine> lines;
+        (void)console->read(from, lines);
+        return std::ranges::any_of(lines, [](const drivers::ConsoleLine& line) {
+            return line.sent && line.text.find("jog cancel") != std::string::npos;
+        });
+    };
+    start_jog();
     bool cancelled = false;
-    constexpr int tries =
-        10; // a slow frame before may have had it cancelled already: then it is jogged again
+    constexpr int tries = 10; // a slow frame may have had it cancelled before: then it is jogged again
     for (int n = 0; n < tries && !cancelled; ++n) {
         ASSERT_TRUE(person.hold_until([this] { return grbl.moving(); }));
         const std::int64_t next = console->end();
@@ -252,11 +259,9 @@ TEST_F(MachineByHand, StopsWhenTheWindowHangs) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         ASSERT_FALSE(grbl.moving());
-        std::vector<drivers::ConsoleLine> lines;
-        (void)console->read(next, lines); // it did not just come to the end of its way
-        cancelled = std::ranges::any_of(lines, [](const drivers::ConsoleLine& line) {
-            return line.sent && line.text.find("jog cancel") != std::string::npos;
-        });
+        ASSERT_TRUE(cancelled_since(before)) << "it came to the end of its way";
+        cancelled = cancelled_since(next);
+        before = console->end();
     }
     EXPECT_TRUE(cancelled);
     person.hold_button(false);

@@ -219,10 +219,13 @@ void Person::choose(const std::string& path, const std::string& option) {
 
 void Person::click(std::string_view path) {
     constexpr int tries = 5;
-    for (int n = 0; n < tries && !press_on(path); ++n) {
+    for (int n = 0; !press_on(path); ++n) {
         hover({-1.0F, -1.0F}); // lets go beside the window, where that has no effect
         input_.buttons[0] = false;
         frames(2);
+        if (n == tries) {
+            throw Error("widget '" + std::string(path) + "' does not stay where it is clicked");
+        }
     }
     frame();
     input_.buttons[0] = false;

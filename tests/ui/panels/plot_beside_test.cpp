@@ -130,5 +130,19 @@ TEST(PlotWorkspace, ItsProgramIsQueuedFromTheMachineWorkspaceAlone) {
     EXPECT_TRUE(add.permission(bench.person.app().look()).allowed);
 }
 
+// F9 opened the machine with the project's program, and pressed again it ran that.
+TEST(PlotWorkspace, RunIsNotForAPlotThatWasNotSentToTheMachine) {
+    PlotPerson bench("assets/samples/plot/everyday.plt");
+    const actions::Action& run = bench.person.app().catalogue().find("machine.run");
+    EXPECT_THAT(run.permission(bench.person.app().look()).reason,
+                HasSubstr("in the Machine workspace first"));
+    bench.person.press_key(render::Key::f9);
+    bench.person.frames(3);
+    EXPECT_EQ(bench.person.app().view_state().workspace, Workspace::plot);
+    bench.person.click("inspector/plot_to_machine");
+    bench.settle();
+    EXPECT_TRUE(run.permission(bench.person.app().look()).allowed);
+}
+
 } // namespace
 } // namespace millwright::panels

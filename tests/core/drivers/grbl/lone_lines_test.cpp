@@ -183,7 +183,7 @@ TEST(GrblHoming, ThatFailsEndsInTheAlarmThatSaysWhy) {
     ASSERT_TRUE(wire.run_until([&] { return wire.state() == DriverState::idle; }, 10.0));
 }
 
-// Homing runs the start-up lines of a Grbl that has begun locked: they may set other modes and offsets.
+// Homing runs the start-up lines, which may set other modes and offsets.
 TEST(GrblHoming, IsFollowedByTheModesThatTheStartupLinesSet) {
     const test::ScratchFolder scratch;
     write_file(scratch / "eeprom", "$22=1\n$25=3000\n$N0=G20G91G55\n");
