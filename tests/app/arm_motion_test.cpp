@@ -161,7 +161,7 @@ TEST(Arm, RefusesProgramsThatItCannotRead) {
     write_content((scratch / "still.ngc").string(), "M2\n");
     EXPECT_THAT(run({"arm", "reach", (scratch / "still.ngc").string()}).err, HasSubstr("contains no motion"));
     EXPECT_THAT(run({"arm", "reach", (scratch / "five.ngc").string(), "--frame", "1,2,nan,0,0,0"}).err,
-                HasSubstr("not finite"));
+                HasSubstr("is not a finite number"));
 }
 
 } // namespace

@@ -185,7 +185,7 @@ TEST_F(Ci, TakesTheTurnThatIsOldest) {
                       HasSubstr("try-package"),
                       HasSubstr("ctest --preset long")));
     EXPECT_EQ(ci().exit_code, 0);
-    EXPECT_THAT(steps(), HasSubstr("test asan 3\n"));
+    EXPECT_THAT(steps(), HasSubstr("test asan 4\n"));
     EXPECT_THAT(steps(), Not(HasSubstr("trixie")));
 }
 

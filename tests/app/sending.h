@@ -5,29 +5,16 @@
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
-#include <sstream>
 #include <string>
 #include <vector>
 
 namespace millwright::test {
 
 /// The last line of the logs in `folder`; null without any.
-inline nlohmann::json last_record(const std::filesystem::path& folder) {
-    nlohmann::json last;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (entry.path().extension() != ".jsonl") {
-            continue;
-        }
-        std::istringstream text(content_of(entry.path()));
-        for (std::string line; std::getline(text, line);) {
-            last = nlohmann::json::parse(line);
-        }
-    }
-    return last;
-}
+[[nodiscard]] nlohmann::json last_record(const std::filesystem::path& folder);
 
 struct Send : testing::Test {
     ScratchFolder scratch;

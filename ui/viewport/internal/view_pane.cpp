@@ -129,6 +129,9 @@ std::vector<ViewEvent> ViewPane::draw(const Frame3D& frame, const widgets::Rect&
 }
 
 void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
+    if (!(place.w >= 1.0F && place.h >= 1.0F)) {
+        return; // later, where there is room
+    }
     Sight& sight = this->sight();
     const bool legends = frame.details && frame.legends;
     widgets::Rect free = legends ? legends_of(frame.ui, place, frame.scene).free : place;
