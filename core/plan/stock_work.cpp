@@ -15,6 +15,7 @@ public:
         : wake_(std::move(wake)), drawing_(wake_), simulating_(wake_) {}
 
     void request(StockJob job) {
+        requested_ = job.program;
         simulating_.replace([this, job = std::move(job)](const Progress& progress) {
             std::shared_ptr<StockSimulation> made;
             const std::optional<Diagnostic> failure =
@@ -32,6 +33,15 @@ public:
     }
     void cancel() { simulating_.clear(); }
 
+    void release() {
+        std::shared_ptr<StockSimulation> simulation; // its memory is given back outside of the lock
+        std::shared_ptr<const StockPicture> picture;
+        const std::scoped_lock lock(mutex_);
+        simulation.swap(simulation_);
+        picture.swap(view_.picture);
+        wanted_.reset();
+    }
+
     void show(int block) {
         {
             const std::scoped_lock lock(mutex_);
@@ -46,6 +56,7 @@ public:
         drawing_.append([this](const Progress& progress) { draw(progress); });
     }
 
+    [[nodiscard]] std::shared_ptr<const program::Program> requested() const { return requested_; }
     [[nodiscard]] StockView view() const {
         const std::scoped_lock lock(mutex_);
         return view_;
@@ -66,6 +77,9 @@ private:
             simulation = simulation_;
             block = wanted_.value_or(0);
         }
+        if (!simulation) { // released since
+            return;
+        }
         std::shared_ptr<const StockPicture> picture;
         const std::optional<Diagnostic> failure = failure_of([&] {
             picture = std::make_shared<const StockPicture>(simulation->picture_before(block, progress));
@@ -78,7 +92,8 @@ private:
     }
 
     std::function<void()> wake_;
-    mutable std::mutex mutex_; ///< guards what follows
+    std::shared_ptr<const program::Program> requested_; ///< of the owner's thread
+    mutable std::mutex mutex_;                          ///< guards what follows
     StockView view_;
     std::shared_ptr<StockSimulation> simulation_; ///< used by the thread that draws
     std::optional<int> wanted_;                   ///< the block that a picture was last asked for
@@ -98,8 +113,16 @@ void StockWorker::cancel() {
     worker_->cancel();
 }
 
+void StockWorker::release() {
+    worker_->release();
+}
+
 void StockWorker::show(int block) {
     worker_->show(block);
+}
+
+std::shared_ptr<const program::Program> StockWorker::requested() const {
+    return worker_->requested();
 }
 
 StockView StockWorker::view() const {

@@ -32,9 +32,13 @@ public:
     void request(StockJob job);
     /// What was found last stays.
     void cancel();
+    /// Drops the picture, and what further ones would be made of, with its memory. The result stays.
+    void release();
     /// From now on the picture is of what the blocks before `block` have left of the last result.
     void show(int block);
 
+    /// The program of the job that came last; null before the first.
+    [[nodiscard]] std::shared_ptr<const program::Program> requested() const;
     [[nodiscard]] StockView view() const;
     /// Of a simulation; a picture takes a moment only.
     [[nodiscard]] Activity activity() const;

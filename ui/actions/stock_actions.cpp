@@ -25,8 +25,8 @@ Permission can_simulate_stock(const FrameState& now) {
     if (!now.program() || !now.listing() || !now.trajectory()) {
         return Permission::refused("There is no program yet. " + now.failure());
     }
-    if (!now.program_is_current()) {
-        return Permission::refused("The program is being computed.");
+    if (!now.program_is_final()) {
+        return Permission::refused("The program is still being computed.");
     }
     const auto& forecast = now.stock.forecast();
     return forecast && forecast->bytes > forecast->most_bytes

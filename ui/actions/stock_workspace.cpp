@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/simulation/spec_text.h"
 #include "ui/actions/frame_state.h"
+#include "ui/actions/view_state.h"
 
 #include <algorithm>
 
@@ -21,6 +22,25 @@ std::optional<simulation::Stock> quick_stock(const geometry::Surface& surface,
         return stock && simulation::fault_of(*stock).empty() ? stock : std::nullopt;
     } catch (const Error&) { // the field that has the text says what is wrong with it
         return std::nullopt;
+    }
+}
+
+bool is_other_stock(const plan::StockResult* seen, const plan::StockResult& now) {
+    return !seen || seen->job.surface != now.job.surface || seen->stock_text != now.stock_text;
+}
+
+/// What is of another program than the project's can never be shown again.
+void follow_program(plan::StockWorker& worker, const FrameState& now, ViewState& view_state) {
+    const auto planned = now.plan ? now.plan->plan.program : nullptr;
+    const plan::Activity work = worker.activity();
+    if (work.busy && !work.stopping && worker.requested() != planned) {
+        worker.cancel();
+        tell(view_state,
+             widgets::Severity::info,
+             "Simulation cancelled: the program has changed. Simulate again.");
+    }
+    if (const auto result = worker.view().result; result && result->job.program != planned) {
+        worker.release();
     }
 }
 
@@ -66,14 +86,21 @@ void StockWorkspace::follow_comparison(double tolerance) {
 }
 
 void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
+    follow_program(worker_, now, view_state);
     follow_forecast(now);
     follow_comparison(now.view_state.stock.settings.tolerance);
-    const auto result = worker_.view().result;
+    const plan::StockView view = worker_.view();
     if (!stock_is_current(now)) {
         return;
     }
-    if (result != seen_) {
-        seen_ = result;
+    if (view.result != seen_) {
+        if (view.picture || view.failure) {
+            if (view_state.stock.shown && is_other_stock(seen_.get(), *view.result)) {
+                view_state.fit_wanted_in(Workspace::toolpath) = true; // it is larger than the part
+                view_state.fit_wanted_in(Workspace::program) = true;
+            }
+            seen_ = view.result;
+        }
         if (!now.follows_job()) {
             view_state.playback.playing = false;
             view_state.playback.time = now.duration();

@@ -179,11 +179,10 @@ void worst_value(Ui& ui,
                              : "Along the normal of the part, from the true positions of the tool");
     const std::string line =
         worst->block < 0
-            ? std::string("uncut")
-            : fmt::format("line {}",
-                          result.job.listing->line_of_block[static_cast<std::size_t>(worst->block)]);
+            ? std::string("not cut")
+            : fmt::format("{}", result.job.listing->line_of_block[static_cast<std::size_t>(worst->block)]);
     ui.value(id + "_at", "   at x, y, z", place_text(worst->point));
-    ui.value(id + "_line", "   by", line);
+    ui.value(id + "_line", "   line", line);
 }
 
 void stock_figures(Ui& ui, const FrameState& now, const plan::StockResult& result) {
@@ -235,7 +234,7 @@ void collision_notes(Ui& ui, const plan::StockResult& result, ActionQueue& ask) 
                                           misses),
                               {}}
             : widgets::Notice{widgets::Severity::good, "No collisions." + misses, {}});
-    if (!result.events.empty() && ui.button("list", "List")) {
+    if (!result.events.empty() && ui.button("list", "Show list")) {
         ask.show([](actions::ViewState& view_state) {
             view_state.panes.lower_shown = true;
             view_state.lower_tab_now() = actions::LowerTab::collisions;

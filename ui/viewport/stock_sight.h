@@ -15,7 +15,7 @@ namespace millwright::viewport {
 /// Gouged beyond the tolerance red, within it green, beyond it blue: pale just above it, strong at
 /// stock_range().
 [[nodiscard]] glm::vec3 stock_color(double height, double tolerance);
-/// Of what is not compared: the stock's own surface, or a cut beside the part.
+/// Of the stock's own surface where it is in excess or beside the part, and of a cut beside the part.
 [[nodiscard]] glm::vec3 stock_color(bool is_cut);
 
 /// Largest height of the legend, both ways: ten tolerances.

@@ -170,6 +170,25 @@ TEST(StockWorker, SimulatesAndShowsTheNewestBlock) {
     EXPECT_EQ(worker.view().picture->result, worker.view().result);
 }
 
+TEST(StockWorker, WhatIsReleasedIsNoLongerDrawn) {
+    StockWorker worker([] {});
+    worker.request(dome_job());
+    worker.wait_idle();
+    worker.show(20);
+    worker.release();
+    worker.wait_idle();
+    worker.show(3);
+    worker.wait_idle();
+    EXPECT_NE(worker.view().result, nullptr);
+    EXPECT_EQ(worker.view().picture, nullptr);
+    worker.request(dome_job());
+    worker.wait_idle();
+    worker.show(3);
+    worker.wait_idle();
+    ASSERT_NE(worker.view().picture, nullptr);
+    EXPECT_EQ(worker.view().picture->block, 3);
+}
+
 TEST(StockWorker, WhatIsCancelledOrFailsLeavesTheLastResult) {
     StockWorker worker([] {});
     worker.request(dome_job());

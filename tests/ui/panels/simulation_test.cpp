@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -43,6 +45,18 @@ protected:
         ASSERT_NE(stock().view().picture, nullptr);
     }
 
+    /// At a resolution that takes far longer than the frames of a test.
+    void begin_long_simulation() {
+        person().fill_in(at("resolution"), "0.06");
+        person().app().run("simulation.run");
+        person().frames(2);
+        ASSERT_TRUE(stock().activity().busy);
+    }
+
+    [[nodiscard]] bool ends() {
+        return person().live_until([this] { return !stock().activity().busy; });
+    }
+
     [[nodiscard]] static std::string at(const std::string& id) { return in_panel + id; }
     [[nodiscard]] Person& person() { return *person_; }
     [[nodiscard]] actions::StockWorkspace& stock() { return person().app().stock(); }
@@ -67,6 +81,28 @@ TEST_F(SimulationPanel, ShowsWhatIsLeftWithItsFiguresAndLegend) {
     person().frames(3);
     EXPECT_NE(person().picture_of("view/iso"), with);
     EXPECT_FALSE(person().sees("view/stock_legend"));
+}
+
+/// What hides in place of the surface leaves the borders of the view as they are.
+TEST_F(SimulationPanel, AStockIsWhollyInSight) {
+    simulate();
+    const render::Picture with = person().picture_of("view/iso");
+    person().click(at("shown"));
+    person().frames(3);
+    const render::Picture without = person().picture_of("view/iso");
+    ASSERT_NE(with, without);
+    const auto differ = [&](int x, int y) {
+        constexpr int slight = 24; // of 255: what is drawn differs by more from the background
+        const render::Pixel a = with.at(x, y), b = without.at(x, y);
+        return std::abs(a[0] - b[0]) > slight || std::abs(a[1] - b[1]) > slight ||
+               std::abs(a[2] - b[2]) > slight;
+    };
+    for (int x = 0; x < with.size.width; ++x) {
+        ASSERT_FALSE(differ(x, 1)) << "at the top, column " << x;
+    }
+    for (int y = 0; y < with.size.height; ++y) {
+        ASSERT_FALSE(differ(with.size.width - 2, y)) << "right, row " << y;
+    }
 }
 
 TEST_F(SimulationPanel, TheForecastFollowsTheResolutionAndForbidsWhatDoesNotFit) {
@@ -175,6 +211,39 @@ TEST_F(SimulationPanel, AChangedProgramTakesThePictureAway) {
     EXPECT_FALSE(actions::stock_is_current(person().app().look()));
     EXPECT_FALSE(person().sees("view/stock_legend"));
     EXPECT_FALSE(person().sees(at("removed")));
+}
+
+TEST_F(SimulationPanel, WhatChangesTheProgramMeanwhileCancelsIt) {
+    begin_long_simulation();
+    person().app().edit("More nodes", [](project::Project& p) { p.grid.nu = 7; }, {});
+    ASSERT_TRUE(ends());
+    person().wait_idle();
+    EXPECT_EQ(stock().view().result, nullptr);
+    EXPECT_THAT(view_state().log, ::testing::Contains(::testing::HasSubstr("Simulation cancelled")));
+    person().fill_in(at("resolution"), "1.5");
+    simulate();
+    EXPECT_TRUE(actions::stock_is_current(person().app().look()));
+}
+
+TEST_F(SimulationPanel, AnotherProjectCancelsItAndBeginsAnew) {
+    simulate();
+    const auto before = stock().view().result;
+    begin_long_simulation();
+    person().app().open(test::dome_project);
+    ASSERT_TRUE(ends());
+    person().wait_idle();
+    EXPECT_EQ(stock().view().result, before);
+    EXPECT_EQ(stock().view().picture, nullptr) << "its memory is needed no more";
+    EXPECT_FALSE(actions::stock_is_current(person().app().look()));
+    EXPECT_FALSE(person().sees("view/stock_legend"));
+    EXPECT_NE(person().refusal(at("simulation_run")).find("point"), std::string::npos);
+}
+
+TEST_F(SimulationPanel, TheWindowClosesWhileItRuns) {
+    begin_long_simulation();
+    const auto begin = std::chrono::steady_clock::now();
+    person_.reset();
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 TEST_F(SimulationPanel, APointAndAWrongStockAreRefused) {

@@ -77,5 +77,22 @@ TEST_F(StockLayer, IsDrawnInPlaceOfTheSurfaceByItsTolerance) {
     EXPECT_NE(picture(scene, view), coarse);
 }
 
+TEST_F(StockLayer, ExcessThatIsUncutHasTheColourOfTheStock) {
+    Scene scene = test::scene_of(test::dome, ViewKind::design);
+    scene.layers = {.surface = true, .floor = false, .origin = false};
+    const render::View view = look_at(scene);
+    plan::StockPicture stock = tetrahedron(30.0);
+    const auto picture_at = [&](double tolerance) {
+        scene.stock = std::make_shared<const plan::StockPicture>(stock);
+        scene.stock_tolerance = tolerance;
+        return picture(scene, view);
+    };
+    EXPECT_NE(picture_at(0.1), picture_at(1.0)) << "cut: paler in a wider range";
+    stock.mesh.moves.assign(stock.mesh.points.size(), simulation::stock_surface);
+    const render::Picture uncut = picture_at(0.1);
+    EXPECT_EQ(uncut, picture_at(1.0));
+    EXPECT_NE(uncut, picture_at(5.0)) << "within the tolerance it is compared";
+}
+
 } // namespace
 } // namespace millwright::viewport

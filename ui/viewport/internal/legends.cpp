@@ -44,7 +44,7 @@ Legend stock_legend(double tolerance) {
             .title = "Stock",
             .unit = "mm",
             .tip = "Height of the remaining material over the part: gouges are red, heights within the "
-                   "tolerance green, excess is blue.",
+                   "tolerance green, excess is blue. Grey is uncut stock, brown a cut beside the part.",
             .scale = {.low = -range, .high = range},
             .colors = [tolerance, range](double t) {
                 return to_colour(stock_color(range * (2.0 * t - 1.0), tolerance));

@@ -37,8 +37,9 @@ render::MeshBuffer stock_buffer(const plan::StockPicture& picture, double tolera
     vertices.reserve(normals.size());
     for (std::size_t n = 0; n < normals.size(); ++n) {
         const auto& height = picture.heights[n];
-        const glm::vec3 color = height ? stock_color(*height, tolerance)
-                                       : stock_color(picture.mesh.moves[n] != simulation::stock_surface);
+        const bool is_cut = picture.mesh.moves[n] != simulation::stock_surface;
+        const bool is_compared = height && (is_cut || *height <= tolerance);
+        const glm::vec3 color = is_compared ? stock_color(*height, tolerance) : stock_color(is_cut);
         vertices.push_back({.position = render::to_float(picture.mesh.points[n]),
                             .normal = render::to_float(normals[n]),
                             .color = with_opacity(color, 1.0F)});
