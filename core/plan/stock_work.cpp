@@ -16,6 +16,10 @@ public:
 
     void request(StockJob job) {
         requested_ = job.program;
+        {
+            const std::scoped_lock lock(mutex_);
+            view_.failure.reset();
+        }
         simulating_.replace([this, job = std::move(job)](const Progress& progress) {
             std::shared_ptr<StockSimulation> made;
             const std::optional<Diagnostic> failure =
@@ -26,6 +30,7 @@ public:
             if (made) {
                 view_.result = made->result();
                 view_.picture = nullptr;
+                view_.picture_failure.reset();
                 simulation_ = std::move(made);
                 wanted_.reset();
             }
@@ -86,7 +91,7 @@ private:
         });
         const std::scoped_lock lock(mutex_);
         if (simulation == simulation_) { // else it is of an earlier one
-            view_.failure = failure;
+            view_.picture_failure = failure;
             view_.picture = picture ? std::move(picture) : view_.picture;
         }
     }

@@ -16,6 +16,7 @@ struct StockView {
     std::shared_ptr<const StockResult> result;
     std::shared_ptr<const StockPicture> picture; ///< the newest, of `result`
     std::optional<Diagnostic> failure;           ///< why the last one ended without a result
+    std::optional<Diagnostic> picture_failure;   ///< why there is no newer picture
 };
 
 /// One simulation at a time, on a thread of its own. Called from the owner's thread; every member but

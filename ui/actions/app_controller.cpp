@@ -402,6 +402,7 @@ void AppController::wait_idle() {
     stock_->wait_idle();
     stock_->follow(look(), view_state_);
     stock_->wait_idle();
+    stock_->follow(look(), view_state_); // the picture that the first one asked for
 }
 
 } // namespace millwright::actions

@@ -74,7 +74,7 @@ void StockWorkspace::follow_forecast(const FrameState& now) {
 }
 
 void StockWorkspace::follow_comparison(double tolerance) {
-    const auto result = worker_.view().result;
+    const auto& result = view_.result;
     if (result == compared_ && !(tolerance < tolerance_ || tolerance > tolerance_)) {
         return;
     }
@@ -87,19 +87,19 @@ void StockWorkspace::follow_comparison(double tolerance) {
 
 void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
     follow_program(worker_, now, view_state);
+    view_ = worker_.view();
     follow_forecast(now);
     follow_comparison(now.view_state.stock.settings.tolerance);
-    const plan::StockView view = worker_.view();
     if (!stock_is_current(now)) {
         return;
     }
-    if (view.result != seen_) {
-        if (view.picture || view.failure) {
-            if (view_state.stock.shown && is_other_stock(seen_.get(), *view.result)) {
+    if (view_.result != seen_) {
+        if (view_.picture || view_.picture_failure) {
+            if (view_state.stock.shown && is_other_stock(seen_.get(), *view_.result)) {
                 view_state.fit_wanted_in(Workspace::toolpath) = true; // it is larger than the part
                 view_state.fit_wanted_in(Workspace::program) = true;
             }
-            seen_ = view.result;
+            seen_ = view_.result;
         }
         if (!now.follows_job()) {
             view_state.playback.playing = false;
@@ -110,7 +110,7 @@ void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
 }
 
 bool stock_is_current(const FrameState& now) {
-    const auto result = now.stock.view().result;
+    const auto& result = now.stock.view().result;
     return result && !now.in_file() && result->job.program == now.program();
 }
 

@@ -40,7 +40,8 @@ public:
     /// that has changed since ends, and gives its memory back.
     void follow(const FrameState& now, ViewState& view_state);
 
-    [[nodiscard]] plan::StockView view() const { return worker_.view(); }
+    /// As it was at the last follow(): all that one frame shows is of one result.
+    [[nodiscard]] const plan::StockView& view() const { return view_; }
     [[nodiscard]] plan::Activity activity() const { return worker_.activity(); }
     /// Nothing where the surface is not there yet, the stock's text is wrong, or it is a mesh.
     [[nodiscard]] const std::optional<plan::StockForecast>& forecast() const { return forecast_; }
@@ -58,6 +59,7 @@ private:
     std::shared_ptr<const geometry::Surface> surface_;
     plan::StockSettings settings_;
     std::optional<plan::StockForecast> forecast_;
+    plan::StockView view_;
     std::shared_ptr<const plan::StockResult> seen_, compared_;
     double tolerance_ = 0.0; ///< of the comparison
     std::optional<simulation::ComparisonSummary> comparison_;

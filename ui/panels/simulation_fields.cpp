@@ -247,14 +247,14 @@ void stock_outcome(Ui& ui,
                    ActionQueue& ask,
                    const actions::Catalogue& catalogue,
                    const plan::StockView& view) {
-    if (view.failure) {
-        const std::string line =
-            view.failure->place.line > 0 ? fmt::format("Line {}: ", view.failure->place.line) : "";
+    const std::optional<Diagnostic>& failure = view.failure ? view.failure : view.picture_failure;
+    if (failure) {
+        const std::string line = failure->place.line > 0 ? fmt::format("Line {}: ", failure->place.line) : "";
         (void)widgets::banner(
             ui,
             "failure",
             {widgets::Severity::warning,
-             line + with_sentence(as_sentence(view.failure->message), as_sentence(view.failure->hint)),
+             line + with_sentence(as_sentence(failure->message), as_sentence(failure->hint)),
              {}});
     }
     if (!view.result) {

@@ -206,6 +206,10 @@ TEST(StockWorker, WhatIsCancelledOrFailsLeavesTheLastResult) {
     EXPECT_EQ(worker.view().result, before);
     ASSERT_TRUE(worker.view().failure);
     EXPECT_NE(worker.view().failure->message.find("MB"), std::string::npos);
+    worker.show(2);
+    worker.wait_idle();
+    EXPECT_TRUE(worker.view().failure)
+        << "a picture of the last result does not change why the next one failed";
 }
 
 } // namespace

@@ -213,6 +213,21 @@ TEST_F(SimulationPanel, AChangedProgramTakesThePictureAway) {
     EXPECT_FALSE(person().sees(at("removed")));
 }
 
+// Its figures were those of the result before, whose blocks the new program does not have.
+TEST_F(SimulationPanel, AResultThatComesBetweenFramesIsShownWholeFromTheNextOnwards) {
+    simulate();
+    const auto before = stock().view().result;
+    person().app().edit("More nodes", [](project::Project& p) { p.grid.nu = 7; }, {});
+    person().wait_idle();
+    person().app().run("simulation.run");
+    stock().wait_idle(); // no frame since
+    EXPECT_EQ(stock().view().result, before);
+    EXPECT_FALSE(actions::stock_is_current(person().app().look()));
+    person().frames(3);
+    EXPECT_NE(stock().view().result, before);
+    EXPECT_TRUE(actions::stock_is_current(person().app().look()));
+}
+
 TEST_F(SimulationPanel, WhatChangesTheProgramMeanwhileCancelsIt) {
     begin_long_simulation();
     person().app().edit("More nodes", [](project::Project& p) { p.grid.nu = 7; }, {});
