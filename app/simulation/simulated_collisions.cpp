@@ -8,6 +8,7 @@
 #include "core/kinematics/machine_solids.h"
 #include "core/project/json_text.h"
 #include "core/simulation/spec_text.h"
+#include "core/simulation/warnings.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -116,10 +117,6 @@ std::string moves_text(const Collision& collision) {
 
 } // namespace
 
-bool is_in_stock(const Finding& finding) {
-    return finding.kind == FindingKind::holder_in_stock || finding.kind == FindingKind::shank_in_stock;
-}
-
 FixtureText parse_fixture(const std::string& text) {
     const simulation::StockText parsed = simulation::parse_stock(text);
     if (parsed.stock) {
@@ -190,7 +187,7 @@ CollisionReport collisions_of(const SimulatedWork& work,
 
 bool collides(const CollisionReport& report, const simulation::Simulation& found) {
     return !report.collisions.empty() || !report.limits.empty() ||
-           std::ranges::any_of(found.findings, is_in_stock);
+           std::ranges::any_of(found.findings, simulation::is_in_stock);
 }
 
 ordered_json collisions_json(const SimulatedWork& work,
@@ -208,7 +205,7 @@ ordered_json collisions_json(const SimulatedWork& work,
         json["contacts"].push_back(json_of(collision, true));
     }
     for (const Finding& finding : found.findings) {
-        if (is_in_stock(finding)) {
+        if (simulation::is_in_stock(finding)) {
             json["contacts"].push_back(json_of(work, finding));
         }
     }
@@ -251,7 +248,7 @@ void print_collisions(const SimulatedWork& work,
     contacts.finish("more collision", "more collisions");
     Few in_stock;
     for (const Finding& finding : found.findings) {
-        if (is_in_stock(finding) && in_stock.next()) {
+        if (simulation::is_in_stock(finding) && in_stock.next()) {
             print_at_line(work,
                           finding.line,
                           fmt::format("{} collides with stock at {}, {} mm deep",

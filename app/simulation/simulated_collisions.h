@@ -29,9 +29,6 @@ void add_part(const std::filesystem::path& file, SimulatedWork& work, const Prog
 /// open fixture, one that looks inwards, and one that lies in the table.
 void take_bodies(const SimulateOptions& options, SimulatedWork& work, const Progress& progress);
 
-/// Of shank or holder.
-[[nodiscard]] bool is_in_stock(const simulation::Finding& finding);
-
 /// Throws Cancelled.
 [[nodiscard]] simulation::CollisionReport collisions_of(const SimulatedWork& work,
                                                         const SimulateOptions& options,

@@ -7,6 +7,7 @@
 #include "core/project/json_text.h"
 #include "core/project/version.h"
 #include "core/simulation/engagement.h"
+#include "core/simulation/warnings.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -171,26 +172,11 @@ void print_rapids(const SimulatedWork& work, const simulation::Simulation& found
 /// A sentence each.
 std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation::Simulation& found) {
     std::vector<std::string> warnings = work.warnings;
-    if (found.skipped && found.skipped->feeds > 0) {
-        warnings.push_back(
-            to_text(Diagnostic{{work.program_file, found.skipped->first_feed_line, 0, -1},
-                               fmt::format("not simulated: {} before the program has positioned every "
-                                           "axis that it uses, lines {} to {}",
-                                           counted(found.skipped->feeds, "feed"),
-                                           found.skipped->first_feed_line,
-                                           found.skipped->last_feed_line),
-                               "position all axes with rapid moves first"}));
-    }
-    const double cell = found.field->cell().maxCoeff();
-    for (const simulation::ToolUse& tool : work.tools) {
-        if (tool.body && 2.0 * tool.body->shape().radius < 2.0 * cell) {
-            warnings.push_back(
-                fmt::format("a tool of {:.3g} mm is narrower than two lines at a resolution of "
-                            "{:.3g} mm: what it cuts can be missed",
-                            2.0 * tool.body->shape().radius,
-                            cell));
-            break;
+    for (Diagnostic& warning : simulation::warnings_of(found, work.tools, found.field->cell().maxCoeff())) {
+        if (warning.place.line > 0) {
+            warning.place.file = work.program_file;
         }
+        warnings.push_back(to_text(warning));
     }
     const auto is_off = [](const Finding& finding) { return finding.kind == FindingKind::spindle_off; };
     const auto first = std::ranges::find_if(found.findings, is_off);
@@ -200,11 +186,6 @@ std::vector<std::string> warnings_of(const SimulatedWork& work, const simulation
             fmt::format("{} material while the spindle is off, the first on this line",
                         counted(std::ranges::count_if(found.findings, is_off), "move cuts", "moves cut")),
             {}}));
-    }
-    const bool touched = std::ranges::any_of(found.findings, is_in_stock);
-    if (found.cutting_moves == 0 && !touched) {
-        warnings.push_back(to_text(Diagnostic{
-            {work.file, 0, 0, -1}, "no move meets the stock: check its place and the work offset", {}}));
     }
     return warnings;
 }

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 namespace millwright::plan {
@@ -48,6 +49,28 @@ NamedStock stock_around(const geometry::Surface& surface, double allowance) {
             fmt::format("{}: the box of the surface and {:g} mm on every side",
                         simulation::to_text(stock),
                         allowance)};
+}
+
+std::string with_whole_path(std::string_view text, const std::filesystem::path& folder) {
+    const simulation::StockText parsed = simulation::parse_stock(text);
+    if (parsed.stock) {
+        return std::string(text);
+    }
+    const std::string written = parsed.mesh_file.string();
+    if (parsed.mesh_file.is_relative() && folder.empty()) {
+        throw Error("the project is not saved, so its folder is not known",
+                    written,
+                    "save it first, or write the whole path of the file");
+    }
+    const auto whole = std::filesystem::absolute(folder / parsed.mesh_file).lexically_normal();
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(whole, ignored)) {
+        throw Error(fmt::format("there is no file {}", printable(whole.string())),
+                    {},
+                    "write its path from the project's folder, or the whole path");
+    }
+    std::string changed(text);
+    return changed.replace(changed.find(written), written.size(), whole.string());
 }
 
 NamedStock stock_from(std::string_view text, const Progress& progress) {

@@ -5,6 +5,7 @@
 #include "core/geometry/surface.h"
 #include "core/simulation/stock.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,11 @@ struct NamedStock {
 
 /// The box of all faces, and `allowance` more on every side.
 [[nodiscard]] NamedStock stock_around(const geometry::Surface& surface, double allowance);
+
+/// A stock's text with the whole path of the mesh file that it names: a relative one is beside the files of
+/// `folder`. Texts without a file stay. Throws Error for what is no stock, for a file that is not there, and
+/// for a relative path where `folder` is empty: that of a project that was never saved.
+[[nodiscard]] std::string with_whole_path(std::string_view text, const std::filesystem::path& folder);
 
 /// As core/simulation/spec_text.h has it; a mesh is read from its file. Throws Error, with the place, for
 /// other texts, files that cannot be read, and meshes with a fault; Cancelled.

@@ -6,6 +6,7 @@
 #include "core/project/tool_settings.h"
 #include "core/simulation/collision_bodies.h"
 #include "core/simulation/resolution.h"
+#include "core/simulation/warnings.h"
 
 #include <fmt/format.h>
 
@@ -42,9 +43,17 @@ std::vector<simulation::ToolUse> tools_of(const StockJob& job) {
         {.first_block = 0, .number = job.project.tool.number, .body = *tool.cutter, .holder = tool.holder}};
 }
 
+/// Throws Error for the box around a flat part that is not larger than the part.
 NamedStock stock_of(const StockJob& job, const Progress& progress) {
-    return job.settings.stock.empty() ? stock_around(*job.surface, job.settings.allowance)
-                                      : stock_from(job.settings.stock, progress);
+    if (!job.settings.stock.empty()) {
+        return stock_from(job.settings.stock, progress);
+    }
+    NamedStock around = stock_around(*job.surface, job.settings.allowance);
+    constexpr double flat = 1e-6; // mm
+    if (simulation::bounds(around.stock).sizes().minCoeff() < flat) {
+        throw Error("The part is flat.", {}, "Choose an allowance above 0.");
+    }
+    return around;
 }
 
 StockEvent event_of(StockEventKind kind, const simulation::Collision& found) {
@@ -115,6 +124,13 @@ std::vector<StockEvent> events_of(const simulation::Simulation& cut,
 }
 
 } // namespace
+
+bool give_the_same(const StockSettings& a, StockSettings b) {
+    if (!a.stock.empty()) {
+        b.allowance = a.allowance;
+    }
+    return a == b;
+}
 
 StockForecast forecast_of(const simulation::Stock& stock, std::optional<double> resolution) {
     const Box3 box = simulation::bounds(stock);
@@ -194,6 +210,7 @@ StockSimulation::StockSimulation(StockJob job, const Progress& progress) {
         parts.collisions(result->cut.first_block, progress.part(0.8, 1.0));
     result->events = events_of(result->cut, collisions, parts.job.cutting_setup->machine);
     result->unchecked = collisions.unchecked;
+    result->warnings = simulation::warnings_of(result->cut, parts.input.tools, result->cell.maxCoeff());
     result->engagement = simulation::summary_of(simulation::engagements(parts.program, result->cut));
     result_ = std::move(result);
 }

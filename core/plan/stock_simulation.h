@@ -2,6 +2,7 @@
 // for collisions, and then shown at any block, forwards and back. docs/reference/simulation.md. Lengths mm.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/geometry/solid.h"
 #include "core/plan/part_heights.h"
@@ -31,6 +32,10 @@ struct StockSettings {
 
     friend bool operator==(const StockSettings&, const StockSettings&) = default;
 };
+
+/// Whether a simulation by the one is also one by the other: the allowance counts for the box around the part
+/// only.
+[[nodiscard]] bool give_the_same(const StockSettings& a, StockSettings b);
 
 /// Of one plan; the parts are not null, and the program is that of the project's tool.
 struct StockJob {
@@ -77,6 +82,7 @@ struct StockResult {
     simulation::EngagementSummary engagement;
     std::vector<StockEvent> events; ///< collisions first, near misses last, each in the order of the blocks
     std::vector<std::string> unchecked; ///< of collisions, a sentence each
+    std::vector<Diagnostic> warnings;   ///< with lines of the listing
 };
 
 /// What the blocks before one have left. Immutable once published.

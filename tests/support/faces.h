@@ -22,6 +22,18 @@ inline Vec2 place_in_square(std::mt19937& random) {
     return {u, share(random)};
 }
 
+/// u and v changed for each other.
+inline geometry::BezierPatch swapped(const geometry::BezierPatch& patch) {
+    const geometry::ControlNet& own = patch.net();
+    geometry::ControlNet net = geometry::ControlNet::sized(own.columns, own.rows);
+    for (int i = 0; i < own.rows; ++i) {
+        for (int j = 0; j < own.columns; ++j) {
+            net.point(j, i) = own.point(i, j);
+        }
+    }
+    return geometry::BezierPatch(std::move(net));
+}
+
 /// The same surface as one span.
 inline geometry::BsplineNet net_of(const geometry::BezierPatch& patch) {
     const geometry::ControlNet& own = patch.net();

@@ -1,13 +1,14 @@
 #include "ui/panels/simulation_fields.h"
 
-#include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/plan/part_stock.h"
 #include "core/simulation/spec_text.h"
 #include "ui/actions/stock_workspace.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/numbers_text.h"
+#include "ui/panels/simulation_notices.h"
 #include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace millwright::panels {
@@ -31,9 +33,10 @@ constexpr std::array<widgets::Option, 2> stocks{
     {{"around", "Box around the part", "", "The bounding box of the surface, larger by the allowance"},
      {"text", "Box, cylinder or file", "", "A stock of its own size, or a mesh file"}}};
 
-/// "" if the text names a stock.
-std::string stock_fault(std::string_view text) {
+/// "" if the text names a stock, and its file is there. `folder`: of the project, empty if it has none.
+std::string stock_fault(std::string_view text, const std::filesystem::path& folder) {
     try {
+        (void)plan::with_whole_path(text, folder);
         const simulation::StockText parsed = simulation::parse_stock(text);
         return parsed.stock ? simulation::fault_of(*parsed.stock) : std::string();
     } catch (const Error& error) {
@@ -72,14 +75,20 @@ void stock_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
                 [](StockSettings& s, double v) { s.allowance = v; });
         return;
     }
-    if (const auto text = ui.expression("stock_text",
-                                        "Size and corner",
-                                        chosen.text,
-                                        stock_fault,
-                                        "In mm: box:LX,LY,LZ@X,Y,Z from its lowest corner; "
-                                        "cylinder:D,L@X,Y,Z and tube:D,BORE,L@X,Y,Z from the middle of the "
-                                        "lower end, along Z (or D,L,x along X); FILE.stl@X,Y,Z")) {
-        ask.show([t = *text](actions::ViewState& view_state) { view_state.stock.text = t; });
+    const std::filesystem::path& file = now.document.file;
+    const std::filesystem::path folder = file.empty() ? file : std::filesystem::absolute(file).parent_path();
+    if (const auto text = ui.expression(
+            "stock_text",
+            "Size and corner",
+            chosen.text,
+            [folder](std::string_view t) { return stock_fault(t, folder); },
+            "In mm: box:LX,LY,LZ@X,Y,Z from its lowest corner; "
+            "cylinder:D,L@X,Y,Z and tube:D,BORE,L@X,Y,Z from the middle of the "
+            "lower end, along Z (or D,L,x along X); FILE.stl@X,Y,Z, with its path "
+            "from the project's folder")) {
+        ask.show([t = plan::with_whole_path(*text, folder)](actions::ViewState& view_state) {
+            view_state.stock.text = t;
+        });
     }
 }
 
@@ -220,21 +229,8 @@ void stock_figures(Ui& ui, const FrameState& now, const plan::StockResult& resul
 }
 
 void collision_notes(Ui& ui, const plan::StockResult& result, ActionQueue& ask) {
-    const auto near =
-        std::ranges::count(result.events, plan::StockEventKind::near_miss, &plan::StockEvent::kind);
-    const auto collisions = std::ssize(result.events) - near;
-    const std::string misses = near > 0 ? fmt::format(" {}.", counted(near, "near miss", "near misses")) : "";
-    (void)widgets::banner(
-        ui,
-        "collisions",
-        collisions > 0
-            ? widgets::Notice{widgets::Severity::danger,
-                              fmt::format("{}.{}",
-                                          counted(collisions, "collision or fault", "collisions and faults"),
-                                          misses),
-                              {}}
-            : widgets::Notice{widgets::Severity::good, "No collisions." + misses, {}});
-    if (!result.events.empty() && ui.button("list", "Show list")) {
+    (void)widgets::banner(ui, "collisions", collision_notice(result));
+    if ((!result.events.empty() || !result.unchecked.empty()) && ui.button("list", "Show list")) {
         ask.show([](actions::ViewState& view_state) {
             view_state.panes.lower_shown = true;
             view_state.lower_tab_now() = actions::LowerTab::collisions;
@@ -249,13 +245,7 @@ void stock_outcome(Ui& ui,
                    const plan::StockView& view) {
     const std::optional<Diagnostic>& failure = view.failure ? view.failure : view.picture_failure;
     if (failure) {
-        const std::string line = failure->place.line > 0 ? fmt::format("Line {}: ", failure->place.line) : "";
-        (void)widgets::banner(
-            ui,
-            "failure",
-            {widgets::Severity::warning,
-             line + with_sentence(as_sentence(failure->message), as_sentence(failure->hint)),
-             {}});
+        (void)widgets::banner(ui, "failure", {widgets::Severity::warning, sentence_of(*failure), {}});
     }
     if (!view.result) {
         ui.note("Simulate to see the material that the program leaves, its gouges, and collisions.");
@@ -271,6 +261,14 @@ void stock_outcome(Ui& ui,
                                      "Draws the material in place of the surface, at the current playback "
                                      "position")) {
         ask.run("simulation.show");
+    }
+    if (!plan::give_the_same(view.result->job.settings, now.view_state.stock.wanted())) {
+        ui.note("Stock, resolution, tolerance or clearance have changed: simulate again for them.");
+    }
+    int number = 0;
+    for (const Diagnostic& warning : view.result->warnings) {
+        (void)widgets::banner(
+            ui, fmt::format("warning_{}", number++), {widgets::Severity::warning, sentence_of(warning), {}});
     }
     ui.note("Stock: " + view.result->stock_text + ".");
     stock_figures(ui, now, *view.result);

@@ -83,8 +83,11 @@ solved(const SparseMatrix& matrix, const std::array<int, 4>& held, const std::ar
     SparseMatrix inside(count, count);
     inside.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<SparseMatrix> factors(inside);
-    const Eigen::VectorXd found = factors.solve(right);
-    if (factors.info() != Eigen::Success || !found.allFinite()) {
+    Eigen::VectorXd found;
+    if (factors.info() == Eigen::Success) {
+        found = factors.solve(right);
+    }
+    if (found.size() != count || !found.allFinite()) {
         throw Error("the faces cannot be spread out flat: their triangles are too thin",
                     {},
                     "leave out faces that are slivers");

@@ -94,12 +94,13 @@ public:
         Eigen::SparseMatrix<double> matrix(rows_ * columns_, rows_ * columns_);
         matrix.setFromTriplets(triplets.begin(), triplets.end());
         const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+        const bool factored = factors.info() == Eigen::Success;
         Eigen::MatrixX3d found(right_.rows(), 3);
-        for (int axis = 0; axis < 3; ++axis) {
+        for (int axis = 0; factored && axis < 3; ++axis) {
             const Eigen::VectorXd of_axis = right_.col(axis);
             found.col(axis) = factors.solve(of_axis);
         }
-        if (factors.info() != Eigen::Success || !found.allFinite()) {
+        if (!factored || !found.allFinite()) {
             throw Error(
                 "no smooth surface follows the faces: some are too narrow for their places in the square",
                 {},

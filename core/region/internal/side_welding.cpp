@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <utility>
 
@@ -151,6 +152,7 @@ private:
         refuse_gaps(groups);
         for (const std::vector<Piece>& group : groups) {
             if (group.size() > 2) {
+                refuse_narrow_faces(group);
                 std::string names;
                 for (const Piece& piece : group) {
                     names += fmt::format("{}{}", names.empty() ? "" : ", ", number(piece.face));
@@ -162,6 +164,32 @@ private:
                             "choose two of them");
             }
             add_border(group);
+        }
+    }
+
+    /// Of more than two pieces: where both long sides of a face are among them, it is the face that is wrong.
+    void refuse_narrow_faces(const std::vector<Piece>& group) const {
+        const auto is_short = [this](int face, int side) {
+            return curve(face, side % 4).length() <= tolerance_;
+        };
+        for (std::size_t a = 0; a < group.size(); ++a) {
+            for (std::size_t b = a + 1; b < group.size(); ++b) {
+                const Piece &one = group[a], &other = group[b];
+                if (one.face != other.face) {
+                    continue;
+                }
+                const bool closes = std::abs(one.side - other.side) == 2 &&
+                                    !is_short(one.face, one.side + 1) &&
+                                    !is_short(one.face, one.side + 3); // such as a cylinder at its seam
+                if (!closes) {
+                    throw Error(fmt::format("face {} is narrower than the tolerance of {} mm, at {}",
+                                            number(one.face),
+                                            tolerance_,
+                                            place_text(middle(one))),
+                                {},
+                                "leave it out, or choose a smaller tolerance");
+                }
+            }
         }
     }
 

@@ -2,12 +2,16 @@
 
 #include "core/plan/stock_work.h"
 #include "tests/core/plan/sample_projects.h"
+#include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <utility>
+#include <vector>
 
 namespace millwright::plan {
 namespace {
@@ -143,6 +147,73 @@ TEST(StockSimulation, AStockByItsTextTakesThePlaceOfTheBox) {
     EXPECT_DOUBLE_EQ(simulation.result()->cut.stock_volume, 60'000.0);
     job.settings.stock = "brick";
     EXPECT_THROW(StockSimulation(job, {}), Error);
+}
+
+TEST(StockSimulation, WarnsOfAStockThatNoMoveMeetsAndOfATooNarrowTool) {
+    EXPECT_TRUE(StockSimulation(dome_job(), {}).result()->warnings.empty());
+    StockJob job = dome_job();
+    job.settings.stock = "box:30,40,50@300,300,-50";
+    job.settings.resolution = 7.0; // wider than the ball's radius of 6 mm
+    const StockSimulation simulation(job, {});
+    const auto& warnings = simulation.result()->warnings;
+    ASSERT_EQ(warnings.size(), 2U);
+    EXPECT_EQ(warnings[0].message.find("a tool of 12 mm is narrower than two lines"), 0U)
+        << warnings[0].message;
+    EXPECT_EQ(warnings[1].message.find("no move meets the stock"), 0U) << warnings[1].message;
+}
+
+TEST(StockSimulation, TheBoxAroundAFlatPartNeedsAnAllowance) {
+    StockJob job = dome_job();
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    net.point(1, 0) = {20.0, 0.0, 0.0};
+    net.point(0, 1) = {0.0, 20.0, 0.0};
+    net.point(1, 1) = {20.0, 20.0, 0.0};
+    job.surface = std::make_shared<const geometry::Surface>(std::vector{geometry::BezierPatch(net)});
+    job.settings.allowance = 0.0;
+    try {
+        const StockSimulation taken(job, {});
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.diagnostic().message, "The part is flat.");
+        EXPECT_EQ(error.diagnostic().hint, "Choose an allowance above 0.");
+    }
+}
+
+TEST(StockText, AMeshFileIsBesideTheProject) {
+    namespace fs = std::filesystem;
+    const test::ScratchFolder scratch;
+    const fs::path folder = scratch.path();
+    fs::create_directories(folder / "meshes");
+    std::ofstream(folder / "meshes/block.stl") << "solid block\nendsolid block\n";
+    const std::string whole = (fs::absolute(folder) / "meshes/block.stl").lexically_normal().string();
+    EXPECT_EQ(with_whole_path("meshes/block.stl@1,2,3", folder), whole + "@1,2,3");
+    EXPECT_EQ(with_whole_path(whole, {}), whole);
+    EXPECT_EQ(with_whole_path("box:9,9,9", {}), "box:9,9,9");
+    EXPECT_THROW((void)with_whole_path("meshes/block.stl", {}), Error);
+    EXPECT_THROW((void)with_whole_path("brick", folder), Error);
+    try {
+        (void)with_whole_path("meshes/other.stl", folder);
+        FAIL() << "taken";
+    } catch (const Error& error) {
+        EXPECT_NE(error.diagnostic().message.find("meshes/other.stl"), std::string::npos);
+    }
+}
+
+TEST(StockSettings, AnotherStockResolutionToleranceOrClearanceNeedsAnotherSimulation) {
+    const StockSettings box;
+    EXPECT_TRUE(give_the_same(box, box));
+    const auto changed = [](StockSettings settings, auto change) {
+        change(settings);
+        return settings;
+    };
+    EXPECT_FALSE(give_the_same(box, changed(box, [](StockSettings& s) { s.allowance = 3.0; })));
+    EXPECT_FALSE(give_the_same(box, changed(box, [](StockSettings& s) { s.resolution = 0.5; })));
+    EXPECT_FALSE(give_the_same(box, changed(box, [](StockSettings& s) { s.tolerance = 0.2; })));
+    EXPECT_FALSE(give_the_same(box, changed(box, [](StockSettings& s) { s.clearance = 0.0; })));
+    const StockSettings own = changed(box, [](StockSettings& s) { s.stock = "box:9,9,9"; });
+    EXPECT_FALSE(give_the_same(box, own));
+    EXPECT_FALSE(give_the_same(own, box));
+    EXPECT_TRUE(give_the_same(own, changed(own, [](StockSettings& s) { s.allowance = 3.0; })));
 }
 
 TEST(StockForecast, GrowsWithTheSquareOfTheResolution) {

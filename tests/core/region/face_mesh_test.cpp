@@ -38,18 +38,6 @@ void expect_has(const std::string& text, const std::string& part) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
-/// u and v changed for each other.
-BezierPatch swapped(const BezierPatch& patch) {
-    const geometry::ControlNet& own = patch.net();
-    geometry::ControlNet net = geometry::ControlNet::sized(own.columns, own.rows);
-    for (int i = 0; i < own.rows; ++i) {
-        for (int j = 0; j < own.columns; ++j) {
-            net.point(j, i) = own.point(i, j);
-        }
-    }
-    return BezierPatch(std::move(net));
-}
-
 Vec3 area_vector(const FaceMesh& mesh, const FaceTriangle& triangle) {
     const auto point = [&](std::size_t k) {
         return mesh.points[static_cast<std::size_t>(triangle.corners[k])];
@@ -99,7 +87,7 @@ TEST(FaceMesh, IsOneDiscWithTheBoundaryOfTheUndividedPatch) {
 
 TEST(FaceMesh, TurnsOverWhatLooksToTheOtherSide) {
     std::vector<BezierPatch> patches = test::quarters(test::patch_of("dome"), 0.5, 0.5);
-    patches[2] = swapped(patches[2]);
+    patches[2] = test::swapped(patches[2]);
     const FaceMesh mesh = mesh_of(patches);
     EXPECT_EQ(mesh.turned_over, (std::vector<bool>{false, false, true, false}));
     const double first = area_vector(mesh, mesh.triangles.front()).z();
@@ -151,6 +139,13 @@ TEST(FaceMesh, RefusesThreeFacesAtOneBorder) {
                         rectangle(10, 0, 10, 10),
                         test::bilinear({10, 0, 0}, {10, 0, 8}, {10, 10, 0}, {10, 10, 8})}),
                "more than two faces meet along one border: 1, 2, 3, at x 10.000, y 5.000");
+}
+
+TEST(FaceMesh, RefusesAFaceThatIsNarrowerThanTheTolerance) {
+    const std::vector<BezierPatch> patches{
+        rectangle(0, 0, 10, 10), rectangle(10, 0, 0.005, 10), rectangle(10.005, 0, 10, 10)};
+    expect_has(refusal(patches), "face 2 is narrower than the tolerance of 0.01 mm, at x 10.00");
+    EXPECT_EQ(refusal(patches, 0.001), "taken");
 }
 
 /// Pieces of a ring of radius 30, straight between lines of length 10 that turn by `twist` once around.

@@ -187,9 +187,17 @@ TEST(JoinedRegion, TurnsWithItsFaces) {
 
 TEST(JoinedRegion, LooksToTheSideOfItsFirstFace) {
     const BezierPatch whole = test::patch_of("dome");
-    std::vector<BezierPatch> patches = test::quarters(whole, 0.5, 0.5);
-    const Region region = joined(patches, spread_out(whole)).region;
-    EXPECT_GT(region.unit_normal(0.3, 0.3)->dot(*whole.unit_normal(0.3, 0.3)), 0.9);
+    const std::vector<BezierPatch> patches = test::quarters(whole, 0.5, 0.5);
+    const auto side_of = [&](std::size_t swapped) { // which of the four has its directions swapped
+        std::vector<BezierPatch> some = patches;
+        some[swapped] = test::swapped(some[swapped]);
+        const Region region = joined(some, spread_out(whole)).region;
+        const geometry::SurfacePoint at = region.point(0.3, 0.3);
+        const Vec2 uv = geometry::ClosestPointSearch(whole).closest(at.position).parameters;
+        return at.normal->dot(*whole.unit_normal(uv.x(), uv.y()));
+    };
+    EXPECT_GT(side_of(3), 0.999);
+    EXPECT_LT(side_of(0), -0.999);
 }
 
 TEST(JoinedRegion, IsMadeOfThePiecesOfItsFaces) {

@@ -1,6 +1,7 @@
 // The simulation of material removal in the window, driven by real mouse and keys, drawn in real OpenGL.
 #include "tests/ui/panels/person.h"
 #include "ui/actions/stock_workspace.h"
+#include "ui/panels/simulation_notices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -187,6 +188,66 @@ TEST_F(SimulationPanel, ACollisionIsListedAndAClickGoesThere) {
     person().wait_idle();
     person().keep("simulation-collisions");
     EXPECT_THAT(person().desktop().ui().cut_texts(), ::testing::IsEmpty());
+}
+
+TEST(SimulationNotices, OnlyWhatWasCheckedIsGood) {
+    plan::StockResult result;
+    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::good);
+    EXPECT_EQ(collision_notice(result).text, "No collisions.");
+    result.unchecked = {"the tool has no holder: only its cutter and shank are checked"};
+    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::info);
+    EXPECT_EQ(collision_notice(result).text,
+              "No collisions found. Not checked: the tool has no holder: only its cutter and shank are "
+              "checked.");
+    result.events.push_back({.kind = plan::StockEventKind::near_miss, .bodies = "cutter and stock"});
+    result.events.push_back({.kind = plan::StockEventKind::collision, .bodies = "cutter and stock"});
+    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::danger);
+    EXPECT_EQ(collision_notice(result).text.find("1 collision or fault. 1 near miss. Not checked: "), 0U);
+}
+
+TEST(SimulationNotices, ASentenceBeginsWithItsLine) {
+    EXPECT_EQ(sentence_of({{{}, 5, 0, -1}, "not simulated: 2 feeds", "position all axes first"}),
+              "Line 5: Not simulated: 2 feeds. Position all axes first.");
+    EXPECT_EQ(sentence_of({{}, "no move meets the stock", {}}), "No move meets the stock.");
+}
+
+TEST_F(SimulationPanel, AStockThatNoMoveMeetsIsWarnedOf) {
+    simulate();
+    EXPECT_FALSE(person().sees(at("warning_0")));
+    person().choose(at("stock"), "text");
+    person().fill_in(at("stock_text"), "box:30,40,50@300,300,-50");
+    person().wait_idle();
+    simulate();
+    ASSERT_EQ(stock().view().result->warnings.size(), 1U);
+    person().keep("simulation-misses-the-stock");
+    EXPECT_TRUE(person().sees(at("warning_0")));
+}
+
+TEST_F(SimulationPanel, WhatWasNotCheckedCanBeListedWithoutAnyCollision) {
+    person().fill_in(at("clearance"), "0");
+    simulate();
+    ASSERT_TRUE(stock().view().result->events.empty());
+    ASSERT_FALSE(stock().view().result->unchecked.empty()) << "the tool has no holder";
+    person().click(at("list"));
+    person().frames(3);
+    EXPECT_EQ(view_state().lower_tab_now(), actions::LowerTab::collisions);
+    person().keep("simulation-unchecked");
+    EXPECT_THAT(person().desktop().ui().cut_texts(), ::testing::IsEmpty());
+}
+
+TEST_F(SimulationPanel, WhatWasChosenSinceIsSaidToNeedAnotherSimulation) {
+    simulate();
+    const auto height_above = [this] {
+        return person().place(at("removed")).y - person().place(at("clearance")).y;
+    };
+    const float before = height_above();
+    person().fill_in(at("clearance"), "2");
+    person().frames(3);
+    EXPECT_GT(height_above(), before) << "a note comes in above the figures";
+    person().keep("simulation-other-settings");
+    person().fill_in(at("clearance"), "1");
+    person().frames(3);
+    EXPECT_FLOAT_EQ(height_above(), before);
 }
 
 TEST_F(SimulationPanel, WhatIsCancelledLeavesTheProjectAndTheLastResult) {
