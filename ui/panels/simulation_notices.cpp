@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace millwright::panels {
 
@@ -32,7 +33,8 @@ widgets::Notice collision_notice(const plan::StockResult& result) {
 std::string sentence_of(const Diagnostic& diagnostic) {
     const std::string line =
         diagnostic.place.line > 0 ? fmt::format("Line {}: ", diagnostic.place.line) : std::string();
-    return line + with_sentence(as_sentence(diagnostic.message), as_sentence(diagnostic.hint));
+    std::string text = line + as_sentence(diagnostic.message);
+    return diagnostic.hint.empty() ? text : with_sentence(std::move(text), as_sentence(diagnostic.hint));
 }
 
 } // namespace millwright::panels

@@ -222,8 +222,12 @@ TEST_F(SimulationPanel, AStockThatNoMoveMeetsIsWarnedOf) {
 
 TEST_F(SimulationPanel, WhatWasNotCheckedCanBeListedWithoutAnyCollision) {
     person().fill_in(at("clearance"), "0");
+    person().choose(at("stock"), "text");
+    person().fill_in(at("stock_text"), "box:5,5,2@48,48,0.5"); // below every move
+    person().wait_idle();
     simulate();
-    ASSERT_TRUE(stock().view().result->events.empty());
+    const auto& events = stock().view().result->events;
+    ASSERT_TRUE(events.empty()) << events.front().bodies;
     ASSERT_FALSE(stock().view().result->unchecked.empty()) << "the tool has no holder";
     person().click(at("list"));
     person().frames(3);
