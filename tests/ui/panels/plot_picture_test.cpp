@@ -116,6 +116,8 @@ TEST(PlotPicture, ARegionOfPixelsThatAreNotSquareIsMarked) {
     const test::ScratchFolder scratch;
     test::write_bmp(scratch / "high.bmp", 301, 501, 10'000, 5'000);
     PlotPerson bench(scratch / "high.bmp", {1280, 1400});
+    bench.person.app().view_state().panes.plot_lower = 132.0F; // as if dragged: low enough to scroll
+    bench.person.frames(3);
     ASSERT_FALSE(bench.made().failure) << to_text(*bench.made().failure);
     bench.person.click("lower/tabs/picture");
     bench.person.frames(3);
