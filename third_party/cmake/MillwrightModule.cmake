@@ -117,18 +117,20 @@ function(millwright_headers_alone name)
     add_dependencies(headers millwright_${name}_headers)
 endfunction()
 
-# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [LONG pattern])
+# millwright_test(NAME SOURCES ... [APART ...] LINK ... [ON_DISPLAY pattern] [REAL_TIME pattern] [LONG pattern])
 #   The test program of one folder. It links that folder's target, and what it is tried with (tests/architecture knows
 #   which). Tests run from the repository's root; those of the core with floating-point traps in the
 #   checked build (outside parts of the user interface calculate with infinities). Those that match ON_DISPLAY open
 #   windows; a window is told when another one covers it, so they have the display to themselves.
+#   Those that match REAL_TIME drive a controller or an arm that does not wait for a starved computer: each counts
+#   as two, so that fewer others run beside it.
 #   Those that match LONG are the full size of a test that also exists in small; they have the label `long`, which
 #   scripts/test leaves out and .ci/run runs last.
 function(millwright_test name)
     if(NOT MILLWRIGHT_TESTS)
         return()
     endif()
-    cmake_parse_arguments(ARG "" "ON_DISPLAY;LONG" "SOURCES;APART;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "ON_DISPLAY;REAL_TIME;LONG" "SOURCES;APART;LINK" ${ARGN})
     set(main millwright_test_main)
     if(MILLWRIGHT_CHECKED AND CMAKE_CURRENT_SOURCE_DIR MATCHES "^${PROJECT_SOURCE_DIR}/tests/core/")
         set(main millwright_trapping_test_main)
@@ -150,6 +152,13 @@ function(millwright_test name)
             TEST_LIST ${name}_test_on_display
             PROPERTIES TIMEOUT 600 LABELS ${name} RESOURCE_LOCK display)
         string(APPEND others ":${ARG_ON_DISPLAY}")
+    endif()
+    if(ARG_REAL_TIME)
+        gtest_discover_tests(${name}_test ${discovery}
+            TEST_FILTER "${ARG_REAL_TIME}"
+            TEST_LIST ${name}_test_real_time
+            PROPERTIES TIMEOUT 600 LABELS ${name} PROCESSORS 2)
+        string(APPEND others ":${ARG_REAL_TIME}")
     endif()
     if(ARG_LONG)
         gtest_discover_tests(${name}_test ${discovery}
