@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace millwright::grid {
 
@@ -192,10 +193,15 @@ node_equations(const NodeArray& nodes, std::span<const double> w, const Equation
     return equations_of(d, at.w, slope, rules.functional, {});
 }
 
-std::vector<NodeEquations>
-all_equations(const NodeArray& nodes, std::span<const double> w, const EquationRules& rules) {
+std::vector<NodeEquations> all_equations(const NodeArray& nodes,
+                                         std::span<const double> w,
+                                         const EquationRules& rules,
+                                         std::vector<NodeEquations> reused) {
+    std::vector<NodeEquations> equations = std::move(reused);
     expects(w.size() == nodes.nodes.size(), "every node has a weight");
-    std::vector<NodeEquations> equations(nodes.nodes.size());
+    if (equations.size() != nodes.nodes.size()) {
+        equations.assign(nodes.nodes.size(), {});
+    }
     for_rows(nodes.rows, nodes.columns, [&](int i) {
         if (i == 0 || i == nodes.rows - 1) {
             return;

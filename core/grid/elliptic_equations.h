@@ -44,9 +44,11 @@ struct EquationRules {
 node_equations(const NodeArray& nodes, std::span<const double> w, const EquationRules& rules, int i, int j);
 
 /// The equations of all nodes that have eight neighbours, [rows x columns]; the others keep zeros and J = 1.
-/// Parallel over rows.
-[[nodiscard]] std::vector<NodeEquations>
-all_equations(const NodeArray& nodes, std::span<const double> w, const EquationRules& rules);
+/// Parallel over rows. `reused`: what an earlier call for an array of this size gave, whose memory is taken.
+[[nodiscard]] std::vector<NodeEquations> all_equations(const NodeArray& nodes,
+                                                       std::span<const double> w,
+                                                       const EquationRules& rules,
+                                                       std::vector<NodeEquations> reused = {});
 
 /// max (|R_X| + |R_Y|) / 2; not finite if one of them is not.
 [[nodiscard]] double residual_norm(std::span<const NodeEquations> equations);

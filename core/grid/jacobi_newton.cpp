@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace millwright::grid {
@@ -64,7 +65,7 @@ void JacobiNewton::sweep() {
     }
     const EquationRules rules{settings_.functional, settings_.derivatives};
     if (settings_.boundary == Boundary::fixed) {
-        equations_ = all_equations(nodes_, w, rules);
+        equations_ = all_equations(nodes_, w, rules, std::move(equations_));
         return;
     }
     const NodeArray wider = with_mirrored_ring(nodes_);
@@ -105,12 +106,18 @@ bool JacobiNewton::iterate() {
 }
 
 SolverStatus JacobiNewton::judge(bool singular) const {
-    if (!std::isfinite(norm_) || !std::ranges::all_of(equations_, finite)) {
+    constexpr double sound = 2.0, inside_out = 1.0, not_finite = 0.0;
+    const double worst = least_of_rows(nodes_.rows, nodes_.columns, [&](int i) {
+        const std::span row =
+            std::span(equations_).subspan(nodes_.index(i, 0), static_cast<std::size_t>(nodes_.columns));
+        return !std::ranges::all_of(row, finite)                                             ? not_finite
+               : std::ranges::any_of(row, [](const NodeEquations& e) { return e.J <= 0.0; }) ? inside_out
+                                                                                             : sound;
+    });
+    if (!std::isfinite(norm_) || !(worst > not_finite)) {
         return SolverStatus::not_finite;
     }
-    const bool inside_out =
-        std::ranges::any_of(equations_, [](const NodeEquations& e) { return e.J <= 0.0; });
-    if (inside_out || min_cell_area(nodes_) <= 0.0 || min_corner_jacobian(nodes_) <= 0.0) {
+    if (!(worst > inside_out) || min_cell_area(nodes_) <= 0.0 || min_corner_jacobian(nodes_) <= 0.0) {
         return SolverStatus::folded;
     }
     if (singular) {

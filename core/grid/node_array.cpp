@@ -1,6 +1,7 @@
 #include "core/grid/node_array.h"
 
 #include "core/base/error.h"
+#include "core/grid/internal/rows.h"
 
 #include <algorithm>
 #include <array>
@@ -64,15 +65,15 @@ double min_cell_area(const NodeArray& array) {
     if (!all_finite(array)) {
         return none;
     }
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i + 1 < array.rows; ++i) {
+    return least_of_rows(array.rows - 1, array.columns, [&](int i) {
+        double smallest = std::numeric_limits<double>::infinity();
         for (int j = 0; j + 1 < array.columns; ++j) {
             const Vec2 diagonal = array.at(i + 1, j + 1) - array.at(i, j);
             const Vec2 other = array.at(i, j + 1) - array.at(i + 1, j);
             smallest = std::min(smallest, cross(diagonal, other) / 2.0);
         }
-    }
-    return smallest;
+        return smallest;
+    });
 }
 
 double min_corner_jacobian(const NodeArray& array) {
@@ -80,12 +81,13 @@ double min_corner_jacobian(const NodeArray& array) {
     if (!all_finite(array)) {
         return none;
     }
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i + 1 < array.rows; ++i) {
+    const double smallest = least_of_rows(array.rows - 1, array.columns, [&](int i) {
+        double of_row = std::numeric_limits<double>::infinity();
         for (int j = 0; j + 1 < array.columns; ++j) {
-            smallest = std::min(smallest, min_corner(array, i, j));
+            of_row = std::min(of_row, min_corner(array, i, j));
         }
-    }
+        return of_row;
+    });
     const double mean_cell =
         outline_area(array) / (static_cast<double>(array.rows - 1) * static_cast<double>(array.columns - 1));
     return mean_cell > 0.0 ? smallest / mean_cell : none;

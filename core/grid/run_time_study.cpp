@@ -118,7 +118,7 @@ RunTimeProfile profile_of(int side, int iterations, const StudyClocks& clocks) {
     const auto sweep = [&] {
         const std::vector<double> w = weight_at_nodes(*weight, nodes);
         lap(profile.weight);
-        equations = all_equations(nodes, w, rules);
+        equations = all_equations(nodes, w, rules, std::move(equations));
         lap(profile.equations);
     };
     last = clocks.processor();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <vector>
 
 namespace millwright::grid {
 
@@ -12,17 +14,34 @@ namespace millwright::grid {
 inline constexpr int nodes_worth_a_thread = 1024;
 inline constexpr int light_nodes_worth_a_thread = 8192;
 
-/// Calls `body(i)` for every row i in [0, rows) of `columns` nodes each.
+/// Calls `body(i)` for every row i in [0, rows) of `columns` nodes each. An even number of pieces of one
+/// size: three of them would keep one of two threads waiting for a third of the time.
 template <class Body>
 void for_rows(int rows, int columns, const Body& body, int worth_a_thread = nodes_worth_a_thread) {
-    const std::ptrdiff_t chunk = std::max(1, worth_a_thread / std::max(1, columns));
-    if (rows <= chunk) {
+    const int least = std::max(1, worth_a_thread / std::max(1, columns));
+    if (rows <= least) {
         for (int i = 0; i < rows; ++i) {
             body(i);
         }
         return;
     }
+    const int pieces = (rows + least - 1) / least;
+    const int even = pieces + pieces % 2;
+    const std::ptrdiff_t chunk = (rows + even - 1) / even;
     parallel_for(rows, chunk, [&](std::ptrdiff_t i) { body(static_cast<int>(i)); });
+}
+
+/// The least `body(i)` of the rows, of work that takes a few ns a node; infinity without rows. NaN must not
+/// come.
+template <class Body> [[nodiscard]] double least_of_rows(int rows, int columns, const Body& body) {
+    std::vector<double> least(static_cast<std::size_t>(rows));
+    for_rows(
+        rows,
+        columns,
+        [&](int i) { least[static_cast<std::size_t>(i)] = body(i); },
+        light_nodes_worth_a_thread);
+    const auto smallest = std::ranges::min_element(least);
+    return smallest == least.end() ? std::numeric_limits<double>::infinity() : *smallest;
 }
 
 inline constexpr std::size_t nodes_per_piece = 4096;
