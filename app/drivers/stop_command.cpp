@@ -31,8 +31,8 @@ std::string sentence(const drivers::DriverStatus& now) {
     return now.message.empty() ? text : text + ": " + now.message;
 }
 
-/// When it stands and was asked what it is, which looks like a link that is yet to be made. It brakes also if
-/// this is not waited for.
+/// Its state once it is at rest and was asked what it is; before that it looks as if it were not connected.
+/// It brakes also if this is not waited for.
 drivers::DriverStatus at_rest(const drivers::Driver& driver, Clock& clock, const std::stop_token& stop) {
     constexpr double glance = 0.02; // s
     drivers::DriverStatus now = driver.status();

@@ -10,7 +10,7 @@
 
 namespace millwright::grid {
 
-/// As many nodes as are worth handing to another thread: of work that takes some 100 ns a node, and of less.
+/// As many nodes as are worth handing to another thread: of work that takes some 100 ns per node, and of less.
 inline constexpr int nodes_worth_a_thread = 1024;
 inline constexpr int light_nodes_worth_a_thread = 8192;
 
@@ -31,7 +31,7 @@ void for_rows(int rows, int columns, const Body& body, int worth_a_thread = node
     parallel_for(rows, chunk, [&](std::ptrdiff_t i) { body(static_cast<int>(i)); });
 }
 
-/// The least `body(i)` of the rows, of work that takes a few ns a node; infinity without rows. NaN must not
+/// The least `body(i)` of the rows, of work that takes a few ns per node; infinity without rows. NaN must not
 /// come.
 template <class Body> [[nodiscard]] double least_of_rows(int rows, int columns, const Body& body) {
     std::vector<double> least(static_cast<std::size_t>(rows));

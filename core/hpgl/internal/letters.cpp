@@ -207,32 +207,36 @@ void label_terminator(Run& run, const Given& given) {
     run.lexer.end_labels_with(text.empty() ? '\x03' : text.front(), !text.empty() && printed);
 }
 
-void character_size(Run& run, const Given& given) {
-    constexpr double most_cm = 128.0; // of HP's plotters
-    for (const double cm : given.numbers) {
-        if (!(std::abs(cm) < most_cm)) {
-            return run.refuse(fmt::format("SI: characters of {} cm are too large, at most {} are allowed: "
-                                          "two numbers may have run together",
-                                          cm,
-                                          most_cm));
+/// Whether an HP plotter has characters of these sizes; else they are refused.
+bool sizes_fit(Run& run, const Given& given, std::string_view command, std::string_view unit) {
+    constexpr double most = 128.0;
+    for (const double size : given.numbers) {
+        if (!(std::abs(size) < most)) {
+            run.refuse(
+                fmt::format("{}: characters of {} {} are too large, at most {} are allowed: two numbers "
+                            "may have run together",
+                            command,
+                            size,
+                            unit,
+                            most));
+            return false;
         }
     }
-    run.modes.label.size_relative = false;
-    run.modes.label.size = given.count() == 2 ? given.point(0) : LabelStyle().size;
+    return true;
+}
+
+void character_size(Run& run, const Given& given) {
+    if (sizes_fit(run, given, "SI", "cm")) {
+        run.modes.label.size_relative = false;
+        run.modes.label.size = given.count() == 2 ? given.point(0) : LabelStyle().size;
+    }
 }
 
 void relative_character_size(Run& run, const Given& given) {
-    constexpr double most_percent = 128.0; // of HP's plotters
-    for (const double percent : given.numbers) {
-        if (!(std::abs(percent) < most_percent)) {
-            return run.refuse(fmt::format("SR: characters of {} % are too large, at most {} are allowed: two "
-                                          "numbers may have run together",
-                                          percent,
-                                          most_percent));
-        }
+    if (sizes_fit(run, given, "SR", "%")) {
+        run.modes.label.size_relative = true;
+        run.modes.label.size = given.count() == 2 ? given.point(0) : Vec2(0.75, 1.5);
     }
-    run.modes.label.size_relative = true;
-    run.modes.label.size = given.count() == 2 ? given.point(0) : Vec2(0.75, 1.5);
 }
 
 void label_direction(Run& run, const Given& given) {

@@ -72,7 +72,7 @@ TEST(CardRun, OfALongLineTellsWhereTheMotorsAreWhateverTheTime) {
         run.follow(status, 0.02);
     }
     EXPECT_NEAR(run.place()->time, 1.0, 0.03);
-    run.follow(status, 10.0); // it stands, as in a hold that is not reported yet
+    run.follow(status, 10.0); // it is at rest, as in a hold that is not reported yet
     EXPECT_NEAR(run.place()->time, 1.0, 0.03);
 }
 
