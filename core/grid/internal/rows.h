@@ -10,7 +10,8 @@
 
 namespace millwright::grid {
 
-/// As many nodes as are worth handing to another thread: of work that takes some 100 ns per node, and of less.
+/// As many nodes as are worth handing to another thread: of work that takes some 100 ns per node, and of
+/// less.
 inline constexpr int nodes_worth_a_thread = 1024;
 inline constexpr int light_nodes_worth_a_thread = 8192;
 
