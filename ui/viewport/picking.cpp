@@ -4,17 +4,20 @@
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/ray_triangle.h"
 
+#include <Eigen/Geometry>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace millwright::viewport {
 
 namespace {
 
 constexpr int cells_per_side = 48;
+constexpr std::size_t triangles_per_row = 2 * cells_per_side;
 constexpr int path_steps = 8;
 constexpr double loop_to_error = 1.5; // an actual path may lie so many of its errors beside its move
 
@@ -124,6 +127,39 @@ private:
     std::optional<PathHit> found_;
 };
 
+std::vector<Eigen::AlignedBox3d> boxes_of_rows(const geometry::Mesh& mesh) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        if (n % triangles_per_row == 0) {
+            boxes.emplace_back();
+        }
+        for (const int corner : mesh.triangles[n]) {
+            boxes.back().extend(mesh.positions[static_cast<std::size_t>(corner)]);
+        }
+    }
+    return boxes;
+}
+
+/// Whether the ray may meet what lies in the box; by the slabs between its opposite sides.
+bool meets(const Vec3& origin, const Vec3& direction, const Eigen::AlignedBox3d& box) {
+    constexpr double rounding = 1e-9;
+    const double margin = rounding * (1.0 + box.diagonal().norm() + (box.center() - origin).norm());
+    double enters = 0.0;
+    double leaves = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const double below = box.min()[k] - margin - origin[k];
+        const double above = box.max()[k] + margin - origin[k];
+        if (std::abs(direction[k]) > 0.0) {
+            const auto [first, last] = std::minmax({below / direction[k], above / direction[k]});
+            enters = std::max(enters, first);
+            leaves = std::min(leaves, last);
+        } else if (below > 0.0 || above < 0.0) {
+            return false;
+        }
+    }
+    return enters <= leaves;
+}
+
 } // namespace
 
 std::optional<ControlPointId> pick_control_point(const geometry::Surface& surface,
@@ -175,10 +211,12 @@ void SurfacePicker::follow(const std::shared_ptr<const geometry::Surface>& surfa
         return;
     }
     surface_ = surface;
-    meshes_.clear();
+    parts_.clear();
     if (surface) {
         for (const geometry::ParametricSurface* part : surface->parts()) {
-            meshes_.push_back(geometry::tessellate(*part, cells_per_side, cells_per_side));
+            geometry::Mesh mesh = geometry::tessellate(*part, cells_per_side, cells_per_side);
+            std::vector<Eigen::AlignedBox3d> boxes = boxes_of_rows(mesh);
+            parts_.push_back({.mesh = std::move(mesh), .boxes = std::move(boxes)});
         }
     }
 }
@@ -188,21 +226,31 @@ std::optional<SurfaceHit> SurfacePicker::hit(const render::Ray& ray, const Frame
     const Vec3 origin = w_T_s * render::to_core(ray.origin);
     const Vec3 direction = w_T_s.linear() * render::to_core(ray.direction);
     std::optional<SurfaceHit> nearest;
-    for (std::size_t p = 0; p < meshes_.size(); ++p) {
-        const geometry::Mesh& mesh = meshes_[p];
+    const auto look_at = [&](std::size_t part, const std::array<int, 3>& triangle) {
+        const geometry::Mesh& mesh = parts_[part].mesh;
+        const auto [a, b, c] = triangle;
         const auto at = [](const auto& of, int k) { return of[static_cast<std::size_t>(k)]; };
-        for (const auto& [a, b, c] : mesh.triangles) {
-            const auto met = meet_triangle(
-                origin, direction, at(mesh.positions, a), at(mesh.positions, b), at(mesh.positions, c));
-            if (met && (!nearest || met->x() < nearest->distance)) {
-                const Vec2 uv = (1.0 - met->y() - met->z()) * at(mesh.parameters, a) +
-                                met->y() * at(mesh.parameters, b) + met->z() * at(mesh.parameters, c);
-                nearest = SurfaceHit{
-                    .position =
-                        surface_->part(geometry::PatchId{static_cast<int>(p)}).position(uv.x(), uv.y()),
-                    .patch = geometry::PatchId{static_cast<int>(p)},
-                    .uv = uv,
-                    .distance = met->x()};
+        const auto met = meet_triangle(
+            origin, direction, at(mesh.positions, a), at(mesh.positions, b), at(mesh.positions, c));
+        if (met && (!nearest || met->x() < nearest->distance)) {
+            const Vec2 uv = (1.0 - met->y() - met->z()) * at(mesh.parameters, a) +
+                            met->y() * at(mesh.parameters, b) + met->z() * at(mesh.parameters, c);
+            const geometry::PatchId patch{static_cast<int>(part)};
+            nearest = SurfaceHit{.position = surface_->part(patch).position(uv.x(), uv.y()),
+                                 .patch = patch,
+                                 .uv = uv,
+                                 .distance = met->x()};
+        }
+    };
+    for (std::size_t part = 0; part < parts_.size(); ++part) {
+        const auto& [mesh, boxes] = parts_[part];
+        for (std::size_t row = 0; row < boxes.size(); ++row) {
+            if (!meets(origin, direction, boxes[row])) {
+                continue;
+            }
+            const std::size_t end = std::min(mesh.triangles.size(), (row + 1) * triangles_per_row);
+            for (std::size_t n = row * triangles_per_row; n < end; ++n) {
+                look_at(part, mesh.triangles[n]);
             }
         }
     }

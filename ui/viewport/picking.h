@@ -5,6 +5,9 @@
 #include "ui/render/view.h"
 #include "ui/viewport/scene.h"
 
+#include <Eigen/Geometry>
+
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -43,8 +46,13 @@ public:
     [[nodiscard]] std::optional<SurfaceHit> hit(const render::Ray& ray, const Frame& s_T_w) const;
 
 private:
+    struct Part {
+        geometry::Mesh mesh;
+        std::vector<Eigen::AlignedBox3d> boxes; ///< of the triangles of each row of cells
+    };
+
     std::shared_ptr<const geometry::Surface> surface_;
-    std::vector<geometry::Mesh> meshes_; ///< one per patch
+    std::vector<Part> parts_; ///< one per patch
 };
 
 /// The face of the reference that the ray (scene) meets first, no further than `farthest_mm` from the ray's

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 namespace millwright::viewport {
 namespace {
@@ -97,6 +98,25 @@ TEST(SurfacePicker, MeetsAMovedSurfaceWhereItIs) {
     const auto hit = picker.hit(render::ray(view, pixel_of(view, s_T_w * place_w)), s_T_w);
     ASSERT_TRUE(hit);
     EXPECT_LT((hit->position - place_w).norm(), 1e-6);
+}
+
+TEST(SurfacePicker, MeetsEveryPlaceFromEverySide) {
+    SurfacePicker picker;
+    picker.follow(sheet());
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> along(0.5, 99.5);
+    std::uniform_real_distribution<double> tilt(-1.0, 1.0);
+    for (int n = 0; n < 500; ++n) {
+        const Vec3 place(along(random), along(random), 0.0);
+        // Every fifth runs within a plane of two axes: such a direction has a zero.
+        const Vec3 direction = Vec3(tilt(random), n % 5 == 0 ? 0.0 : tilt(random), -1.0).normalized();
+        const Vec3 origin = place - 300.0 * direction;
+        const auto hit = picker.hit(
+            {.origin = render::to_glm(origin), .direction = render::to_glm(direction)}, Frame::Identity());
+        ASSERT_TRUE(hit) << place.transpose() << " along " << direction.transpose();
+        EXPECT_LT((hit->position - place).norm(), 1e-6);
+        EXPECT_NEAR(hit->distance, 300.0, 1e-6);
+    }
 }
 
 TEST(SurfacePicker, MeetsNothingBesideTheSurfaceOrWithoutOne) {
