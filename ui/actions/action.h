@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/project/history.h"
-#include "ui/actions/frame_state.h"
-#include "ui/actions/hold_to_run_jog.h"
 #include "ui/widgets/permission.h"
+#include "ui/workspaces/frame_state.h"
+#include "ui/workspaces/hold_to_run_jog.h"
 
 #include <functional>
 #include <memory>

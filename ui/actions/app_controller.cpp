@@ -2,15 +2,15 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "ui/actions/arm_workspace.h"
-#include "ui/actions/at_rest.h"
-#include "ui/actions/control_points.h"
-#include "ui/actions/job_source.h"
-#include "ui/actions/pending_import.h"
-#include "ui/actions/processor_workspace.h"
-#include "ui/actions/stock_workspace.h"
-#include "ui/actions/surface_export.h"
-#include "ui/actions/wanted_plan.h"
+#include "ui/workspaces/arm_workspace.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/control_points.h"
+#include "ui/workspaces/job_source.h"
+#include "ui/workspaces/pending_import.h"
+#include "ui/workspaces/processor_workspace.h"
+#include "ui/workspaces/stock_workspace.h"
+#include "ui/workspaces/surface_export.h"
+#include "ui/workspaces/wanted_plan.h"
 
 #include <algorithm>
 #include <utility>

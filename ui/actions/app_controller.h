@@ -5,9 +5,9 @@
 #include "core/project/autosave.h"
 #include "core/project/window_settings.h"
 #include "ui/actions/action.h"
-#include "ui/actions/machine_solids.h"
-#include "ui/actions/run_check.h"
-#include "ui/actions/stored_queue.h"
+#include "ui/workspaces/machine_solids.h"
+#include "ui/workspaces/run_check.h"
+#include "ui/workspaces/stored_queue.h"
 
 #include <chrono>
 #include <cstdint>

@@ -11,7 +11,7 @@
 #include "core/pmac/driver/pmac_program.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/arm_workspace.h"
+#include "ui/workspaces/arm_workspace.h"
 
 #include <fmt/format.h>
 

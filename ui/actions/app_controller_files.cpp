@@ -11,13 +11,13 @@
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/at_rest.h"
-#include "ui/actions/kept_view_state.h"
-#include "ui/actions/pending_import.h"
-#include "ui/actions/processor_texts.h"
-#include "ui/actions/shown_grid.h"
-#include "ui/actions/stock_workspace.h"
-#include "ui/actions/surface_export.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/kept_view_state.h"
+#include "ui/workspaces/pending_import.h"
+#include "ui/workspaces/processor_texts.h"
+#include "ui/workspaces/shown_grid.h"
+#include "ui/workspaces/stock_workspace.h"
+#include "ui/workspaces/surface_export.h"
 
 #include <fmt/format.h>
 

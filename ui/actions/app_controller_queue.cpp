@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/job_source.h"
+#include "ui/workspaces/job_source.h"
 
 #include <algorithm>
 #include <utility>
