@@ -207,6 +207,7 @@ void AppController::new_from_preset(std::string_view preset_id) {
 }
 
 void AppController::begin(project::Project other, const std::string& title, Document document) {
+    drag_.commit();
     const bool nothing_done = history_.undo_title().empty() && history_.redo_title().empty();
     if (nothing_done &&
         this->document().file.empty()) { // as the program makes it at its start: nothing to go back to

@@ -22,7 +22,6 @@ namespace {
 
 using actions::ViewState;
 using project::Project;
-using viewport::DragStage;
 using viewport::SurfaceToolKind;
 
 constexpr std::array<widgets::Option, 3> tools{
@@ -33,8 +32,8 @@ constexpr std::array<widgets::Option, 2> strokes{
     {{"paint", "Paint", "", "Make cells smaller here", {}}, {"erase", "Erase", "", "Erase the paint", {}}}};
 
 /// A corner may be moved while another change has taken it away.
-bool has_corner(const grid::Region& region, int corner) {
-    return corner >= 0 && corner < static_cast<int>(region.outline.size());
+bool has_corner(const std::vector<Vec2>& outline, int corner) {
+    return corner >= 0 && corner < static_cast<int>(outline.size());
 }
 
 constexpr double largest_share = 1e3; // project::elliptic_numbers() allow no more
@@ -190,24 +189,16 @@ void surface_tool_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
 }
 
 void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQueue& ask) {
-    if (painted.stage != DragStage::going_on) {
-        ask.end_step();
-        if (painted.stage == DragStage::cancelled) {
-            ask.run("edit.undo");
-        }
-        return;
-    }
     const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     const grid::Brush brush{
         .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
-    ask.edit(
-        tool.erases ? "Erase the weight" : "Paint the weight",
-        [painted, brush](Project& p) {
-            plan::paint_weight(
-                p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
-            plan::let_paint_count(p.grid.elliptic);
-        },
-        "paint the weight");
+    const auto paint = [painted, brush](Project& p) {
+        plan::paint_weight(
+            p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
+        plan::let_paint_count(p.grid.elliptic);
+    };
+    ask.drag(painted.stage,
+             actions::dragged_in_project(tool.erases ? "Erase the weight" : "Paint the weight", paint));
 }
 
 void obey(const viewport::AddOutlineCorner& corner, ActionQueue& ask) {
@@ -239,29 +230,15 @@ void obey(const viewport::DropOutline&, ActionQueue& ask) {
 
 void obey(const viewport::MoveOutlineCorner& moved, const FrameState& now, ActionQueue& ask) {
     const bool drawing = !now.view_state.surface_tool.draft.empty();
-    if (drawing && moved.stage == DragStage::going_on) {
-        ask.show([moved](ViewState& view_state) {
-            std::vector<Vec2>& draft = view_state.surface_tool.draft;
-            if (moved.corner < static_cast<int>(draft.size())) {
-                draft[static_cast<std::size_t>(moved.corner)] = moved.uv;
-            }
-        });
-    } else if (moved.stage == DragStage::going_on) {
-        ask.edit(
-            "Move a corner of the region",
-            [moved](Project& p) {
-                grid::Region& region = p.grid.elliptic.region;
-                if (has_corner(region, moved.corner)) {
-                    region.outline[static_cast<std::size_t>(moved.corner)] = moved.uv;
-                }
-            },
-            "drag a corner of the region");
-    } else if (!drawing) {
-        ask.end_step();
-        if (moved.stage == DragStage::cancelled) {
-            ask.run("edit.undo");
+    const auto move = [moved](std::vector<Vec2>& outline) {
+        if (has_corner(outline, moved.corner)) {
+            outline[static_cast<std::size_t>(moved.corner)] = moved.uv;
         }
-    }
+    };
+    const auto move_in_project = [move](Project& p) { move(p.grid.elliptic.region.outline); };
+    ask.drag(moved.stage,
+             drawing ? actions::dragged_in_outline(move)
+                     : actions::dragged_in_project("Move a corner of the region", move_in_project));
 }
 
 } // namespace millwright::panels

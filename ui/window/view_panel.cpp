@@ -34,28 +34,23 @@ void move_dragged_points(const viewport::MoveControlPoints& move, const FrameSta
         };
     };
     if (!std::ranges::all_of(move.points, is_there(now.project.surface))) {
-        ask.end_step();
+        ask.drag(viewport::DragStage::finished, {});
         return;
     }
     const std::string title = move.points.size() == 1
                                   ? "Move a control point"
                                   : "Move " + std::to_string(move.points.size()) + " points";
-    ask.edit(
-        title,
-        [points = move.points, is_there](project::Project& draft) {
-            if (!std::ranges::all_of(points, is_there(draft.surface))) {
-                return; // changed since, in the same frame
-            }
-            for (const viewport::MovedControlPoint& moved : points) {
-                draft.surface.patches[static_cast<std::size_t>(moved.id.patch)].point(
-                    moved.id.i, moved.id.j) = moved.position;
-            }
-            draft.surface.preset.clear();
-        },
-        "drag control points");
-    if (move.stage != viewport::MoveControlPoints::Stage::going_on) {
-        ask.end_step();
-    }
+    const auto change = [points = move.points, is_there](project::Project& draft) {
+        if (!std::ranges::all_of(points, is_there(draft.surface))) {
+            return; // changed since, in the same frame
+        }
+        for (const viewport::MovedControlPoint& moved : points) {
+            draft.surface.patches[static_cast<std::size_t>(moved.id.patch)].point(moved.id.i, moved.id.j) =
+                moved.position;
+        }
+        draft.surface.preset.clear();
+    };
+    ask.drag(move.stage, actions::dragged_in_project(title, change));
 }
 
 void select_points(const viewport::SelectControlPoints& select, const FrameState& now, ActionQueue& ask) {
@@ -110,21 +105,14 @@ void drag_arm(const FrameState& now, ActionQueue& ask, const Event& event, Move&
         }
         return;
     }
-    if (event.stage == viewport::DragStage::going_on) {
-        ask.arm(std::forward<Move>(move));
-    } else if (event.stage == viewport::DragStage::cancelled) {
-        ask.arm([before = event.before](actions::ArmWorkspace& arm) { arm.set_joints(before); });
-    }
+    ask.drag(event.stage, actions::dragged_on_arm(std::forward<Move>(move)));
 }
 
 void move_part(const viewport::MoveArmPart& move, ActionQueue& ask) {
-    ask.edit(
-        "Place the path on the arm",
-        [at = move.at](project::Project& draft) { draft.arm.path.at_mm = at; },
-        "drag the path on the arm");
-    if (move.stage != viewport::DragStage::going_on) {
-        ask.end_step();
-    }
+    ask.drag(
+        move.stage,
+        actions::dragged_in_project("Place the path on the arm",
+                                    [at = move.at](project::Project& draft) { draft.arm.path.at_mm = at; }));
 }
 
 /// The results are of the surface that the project has now: after another project was opened, not at once.

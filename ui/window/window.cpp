@@ -180,7 +180,7 @@ bool Window::no_jog(const FrameState& now) {
 }
 
 void Window::draw(Ui& ui, float width, float height, bool focused) {
-    const bool held = jog_may_be_held(app_.look().gamepad);
+    const bool held = jog_may_be_held(app_.gamepad());
     app_.watch_jog(held, focused);
     const FrameState now = app_.look();
     const bool may_jog = jog_gate_.follow(held,
@@ -462,7 +462,7 @@ void Window::obey_shortcuts(const Ui& ui, const FrameState& now) {
 }
 
 std::optional<double> Window::next_change() const {
-    const auto& view_state = app_.look().view_state;
+    const auto& view_state = app_.view_state();
     const bool runs = view_state.playback.playing || app_.processor().running() || app_.arm().moving();
     if (runs || app_.jogging()) {
         return 0.0;

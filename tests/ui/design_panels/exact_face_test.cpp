@@ -126,7 +126,7 @@ TEST_F(ExactFaceInTheWindow, PointsOfTheSurfaceBeforeItAreNotMoved) {
             const project::SurfaceInput before = person_.project().surface;
             ActionQueue ask;
             obey(viewport::MoveControlPoints{.points = {{.id = second_patch_point, .position = Vec3::Zero()}},
-                                             .stage = viewport::MoveControlPoints::Stage::going_on},
+                                             .stage = viewport::DragStage::going_on},
                  now,
                  ask);
             person_.app().perform(ask);
