@@ -6,9 +6,9 @@
 #include "core/project/recent_files.h"
 #include "core/project/recovery.h"
 #include "core/project/window_settings.h"
-#include "ui/actions/kept_view_state.h"
-#include "ui/panels/desktop.h"
 #include "ui/render/window_context.h"
+#include "ui/window/desktop.h"
+#include "ui/workspaces/kept_view_state.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // while it is derived, and what a frame costs while the view is panned and zoomed.
 #include "bench/visitor.h"
 #include "bench/written_file.h"
-#include "ui/actions/plot_workspace.h"
+#include "ui/workspaces/plot_workspace.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/project/assets.h"
-#include "ui/panels/desktop.h"
+#include "ui/window/desktop.h"
 
 #include <epoxy/gl.h>
 #include <time.h>

@@ -14,7 +14,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "ui/actions/motion_file_draft.h"
+#include "ui/workspaces/motion_file_draft.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

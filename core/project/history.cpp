@@ -2,6 +2,8 @@
 
 #include "core/base/error.h"
 
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 namespace millwright::project {
@@ -14,15 +16,18 @@ void History::commit(Project next, std::string title, std::string merge_key) {
     if (next == current()) {
         return;
     }
-    drop_undone();
     if (at_ > 0 && !merge_key.empty() && steps_[at_].merge_key == merge_key) {
         steps_[at_].project = std::move(next);
         if (steps_[at_].project == steps_[at_ - 1].project) { // dragged back to where it began
-            steps_.pop_back();
-            --at_;
+            take_back();
         }
         return;
     }
+    set_aside_.clear();
+    if (!merge_key.empty()) {
+        set_aside_.assign(steps_.begin() + static_cast<std::ptrdiff_t>(at_) + 1, steps_.end());
+    }
+    drop_undone();
     push({std::move(next), std::move(title), std::move(merge_key), project_number()});
 }
 
@@ -46,6 +51,21 @@ void History::push(Step step) {
 
 void History::close_step() {
     steps_[at_].merge_key.clear();
+    set_aside_.clear();
+}
+
+void History::revert_step(std::string_view merge_key) {
+    if (at_ > 0 && !merge_key.empty() && steps_[at_].merge_key == merge_key) {
+        take_back();
+    }
+}
+
+void History::take_back() {
+    steps_.pop_back();
+    --at_;
+    steps_.insert(
+        steps_.end(), std::make_move_iterator(set_aside_.begin()), std::make_move_iterator(set_aside_.end()));
+    set_aside_.clear();
 }
 
 std::string History::undo_title() const {

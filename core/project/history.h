@@ -4,6 +4,7 @@
 #include "core/project/project.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::project {
@@ -24,6 +25,9 @@ public:
     [[nodiscard]] int project_number() const { return steps_[at_].project_number; }
     /// Ends merging: the next commit is a step of its own.
     void close_step();
+    /// Takes back the step that commits with `merge_key` still join: what it dropped can be redone again.
+    /// Nothing where there is none.
+    void revert_step(std::string_view merge_key);
 
     /// The title of what undo or redo would do; empty if there is nothing.
     [[nodiscard]] std::string undo_title() const;
@@ -41,8 +45,10 @@ private:
     };
     void drop_undone();
     void push(Step step);
+    void take_back(); ///< the last step
 
     std::vector<Step> steps_;
+    std::vector<Step> set_aside_; ///< dropped by the step that goes on
     std::size_t at_ = 0;
     int last_project_number_ = 0;
     static constexpr std::size_t most_steps = 500;

@@ -31,8 +31,8 @@ std::optional<Include> include_in(const Line& line) {
     return Include{.line = line.number, .path = rest.substr(1, end - 1), .quoted = rest.starts_with('"')};
 }
 
-// A folder of the core, or of app, may include those of a smaller rank; two of the same rank know nothing of
-// each other.
+// A folder of the core, of ui or of app may include those of a smaller rank; two of the same rank know
+// nothing of each other.
 struct Rank {
     std::string_view folder;
     int rank;
@@ -46,6 +46,24 @@ constexpr std::array core_order = {
     Rank{"posts", 8},        Rank{"drivers", 8},    Rank{"cordic_machine", 9}, Rank{"emulators", 9},
     Rank{"jobs", 9},         Rank{"pmac", 10},      Rank{"plan", 10},          Rank{"machine", 11},
     Rank{"studies", 11},     Rank{"region", 2},     Rank{"plot_strokes", 2},   Rank{"hpgl", 3},
+};
+
+// Panels of one workspace know nothing of those of another; what several need lies in ui/panels. The arm's
+// are moved by hand as a machine is.
+constexpr std::array ui_order = {
+    Rank{"render", 0},
+    Rank{"widgets", 0},
+    Rank{"viewport", 1},
+    Rank{"workspaces", 2},
+    Rank{"actions", 3},
+    Rank{"panels", 4},
+    Rank{"design_panels", 5},
+    Rank{"machine_panels", 5},
+    Rank{"plot_panels", 5},
+    Rank{"processor_panels", 5},
+    Rank{"toolpath_panels", 5},
+    Rank{"arm_panels", 6},
+    Rank{"window", 7},
 };
 
 // What lies in app itself, main and the window, may include all of them, and none of them it.
@@ -94,6 +112,10 @@ upward(const std::string& part, std::span<const Rank> order, std::string_view pa
 
 std::string upward_in_core(std::string_view path, const Include& include) {
     return upward("core", core_order, path, include);
+}
+
+std::string upward_in_ui(std::string_view path, const Include& include) {
+    return upward("ui", ui_order, path, include);
 }
 
 std::string upward_in_app(std::string_view path, const Include& include) {
@@ -231,6 +253,7 @@ std::string not_from_the_root(std::string_view, const Include& include) {
 
 constexpr std::array rules = {
     upward_in_core,
+    upward_in_ui,
     upward_in_app,
     across_border,
     into_internal,

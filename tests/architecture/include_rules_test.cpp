@@ -50,6 +50,19 @@ TEST(Includes, OfAnUnknownFolderInTheCoreAreFound) {
                 ElementsAre("core/extras has no place in the order of the folders of core: core/extras/a.h"));
 }
 
+TEST(Includes, GoDownInTheOrderOfTheWindow) {
+    EXPECT_THAT(said_of("ui/window/a.cpp", "\"ui/arm_panels/b.h\""), IsEmpty());
+    EXPECT_THAT(said_of("ui/arm_panels/a.cpp", "\"ui/machine_panels/b.h\""), IsEmpty());
+    EXPECT_THAT(said_of("ui/workspaces/a.cpp", "\"ui/actions/action.h\""),
+                ElementsAre("ui/workspaces includes upward: ui/actions/action.h"));
+    EXPECT_THAT(said_of("ui/panels/a.cpp", "\"ui/plot_panels/b.h\""),
+                ElementsAre("ui/panels includes upward: ui/plot_panels/b.h"));
+    EXPECT_THAT(said_of("ui/machine_panels/a.cpp", "\"ui/plot_panels/b.h\""),
+                ElementsAre("ui/machine_panels includes upward: ui/plot_panels/b.h"));
+    EXPECT_THAT(said_of("ui/extras/a.cpp", "\"ui/render/view.h\""),
+                ElementsAre("ui/extras has no place in the order of the folders of ui: ui/render/view.h"));
+}
+
 TEST(Includes, GoDownInTheOrderOfTheProgramsAreas) {
     EXPECT_THAT(said_of("app/plots/a.cpp", "\"app/drivers/run.h\""), IsEmpty());
     EXPECT_THAT(said_of("app/plots/a.cpp", "\"app/plots/b.h\""), IsEmpty());

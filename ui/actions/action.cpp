@@ -37,6 +37,11 @@ void ActionQueue::end_step() {
     requests_.emplace_back([](AppController& app) { app.end_step(); });
 }
 
+void ActionQueue::drag(viewport::DragStage stage, Dragged what) {
+    requests_.emplace_back(
+        [stage, what = std::move(what)](AppController& app) { follow(app.drag(), app, stage, what); });
+}
+
 void ActionQueue::show(std::function<void(ViewState&)> change) {
     requests_.emplace_back([change = std::move(change)](AppController& app) { change(app.view_state()); });
 }

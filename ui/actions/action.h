@@ -2,9 +2,10 @@
 #pragma once
 
 #include "core/project/history.h"
-#include "ui/actions/frame_state.h"
-#include "ui/actions/hold_to_run_jog.h"
+#include "ui/actions/drag.h"
 #include "ui/widgets/permission.h"
+#include "ui/workspaces/frame_state.h"
+#include "ui/workspaces/hold_to_run_jog.h"
 
 #include <functional>
 #include <memory>
@@ -79,6 +80,8 @@ public:
     /// `merge_key` become one until end_step().
     void edit(std::string title, std::function<void(project::Project&)> change, std::string merge_key = {});
     void end_step();
+    /// One frame of a drag.
+    void drag(viewport::DragStage stage, Dragged what);
     /// A change of what is looked at.
     void show(std::function<void(ViewState&)> change);
     /// Opens a chosen file, after asking what becomes of unsaved changes; saves to one.

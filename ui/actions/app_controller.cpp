@@ -2,15 +2,15 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "ui/actions/arm_workspace.h"
-#include "ui/actions/at_rest.h"
-#include "ui/actions/control_points.h"
-#include "ui/actions/job_source.h"
-#include "ui/actions/pending_import.h"
-#include "ui/actions/processor_workspace.h"
-#include "ui/actions/stock_workspace.h"
-#include "ui/actions/surface_export.h"
-#include "ui/actions/wanted_plan.h"
+#include "ui/workspaces/arm_workspace.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/control_points.h"
+#include "ui/workspaces/job_source.h"
+#include "ui/workspaces/pending_import.h"
+#include "ui/workspaces/processor_workspace.h"
+#include "ui/workspaces/stock_workspace.h"
+#include "ui/workspaces/surface_export.h"
+#include "ui/workspaces/wanted_plan.h"
 
 #include <algorithm>
 #include <utility>
@@ -205,6 +205,7 @@ void AppController::run(std::string_view id) {
         tell(view_state_, widgets::Severity::info, permission.reason);
         return;
     }
+    drag_.commit(); // what is dragged on is a step of its own
     const project::Project before = history_.current();
     const int number_before = history_.project_number();
     ActionContext context{history_, view_state_, document(), *pipeline_, *jobs_, now, *this};
@@ -269,22 +270,23 @@ bool AppController::advance(double seconds) {
     follow_plot();
     follow_import();
     follow_file();
-    follow_begin();
-    follow_run();
-    follow_queue();
-    follow_next();
-    arm_->news().follow(connection_->view(), connection_->driver(), view_state_);
-    stock_->follow(look(), view_state_);
-    const bool armed = follow_arm(seconds);
+    const FrameState now = look(); // one for all that follows
+    follow_begin(now);
+    follow_run(now);
+    follow_queue(now);
+    follow_next(now);
+    arm_->news().follow(now.connection, connection_->driver(), view_state_);
+    stock_->follow(now, view_state_);
+    const bool armed = follow_arm(now, seconds);
     const bool processed = follow_processor(seconds) || armed;
     Playback& playback = view_state_.playback;
-    const double duration = look().duration();
+    const double duration = now.duration();
     if (!(duration > 0.0)) {
         playback.playing = false;
         return processed;
     }
     const double before = playback.time;
-    follow_job();
+    follow_job(now);
     playback.time = std::clamp(playback.time, 0.0, duration);
     if (playback.playing) {
         view_state_.file.step.reset();
@@ -295,8 +297,7 @@ bool AppController::advance(double seconds) {
 }
 
 /// Of what a job is made of: none is made of what the Plot & Picture workspace shows.
-void AppController::follow_begin() {
-    const FrameState now = look();
+void AppController::follow_begin(const FrameState& now) {
     const bool is_plot = view_state_.workspace == Workspace::plot;
     if (!view_state_.start_at.on || is_plot || now.job.running || !program_ready(now).allowed) {
         approach_->want(std::nullopt);
@@ -307,8 +308,7 @@ void AppController::follow_begin() {
 }
 
 /// Where Run starts something, and not while a machine moves: then the last answer stays.
-void AppController::follow_run() {
-    const FrameState now = look();
+void AppController::follow_run(const FrameState& now) {
     if (now.view_state.workspace != Workspace::machine || now.job.running || !job_ready(now).allowed) {
         if (std::exchange(run_wish_, nullptr)) {
             run_check_->forget();
@@ -325,8 +325,7 @@ void AppController::follow_run() {
 }
 
 /// The same of the job that the queue would begin with.
-void AppController::follow_next() {
-    const FrameState now = look();
+void AppController::follow_next(const FrameState& now) {
     const auto next = std::ranges::find_if(
         now.queue, [](const jobs::QueuedJob& job) { return job.state != jobs::QueueState::done; });
     const bool waits =
@@ -354,8 +353,7 @@ void AppController::ask_to_start(StartWish wish) {
 }
 
 /// So that the timeline stays where the machine came to rest.
-void AppController::follow_job() {
-    const FrameState now = look();
+void AppController::follow_job(const FrameState& now) {
     const bool follows = now.follows_job();
     const bool ended = follows_job_ && now.job.report && now.job_is_shown();
     if (follows || ended) {
@@ -379,6 +377,11 @@ void AppController::edit(const std::string& title,
     follow_project();
 }
 
+void AppController::revert_step(const std::string& merge_key) {
+    history_.revert_step(merge_key);
+    follow_project();
+}
+
 void AppController::wait_idle() {
     want_plan();
     pipeline_->wait_idle();
@@ -390,11 +393,11 @@ void AppController::wait_idle() {
     follow_plot();
     reader_->wait_idle();
     jobs_->wait();
-    follow_begin();
+    follow_begin(look());
     approach_->wait_idle();
-    follow_run();
+    follow_run(look());
     run_check_->wait_idle();
-    follow_next();
+    follow_next(look());
     next_check_->wait_idle();
     start_->wait_idle();
     job_recovery_->wait_idle();

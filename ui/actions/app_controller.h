@@ -5,9 +5,9 @@
 #include "core/project/autosave.h"
 #include "core/project/window_settings.h"
 #include "ui/actions/action.h"
-#include "ui/actions/machine_solids.h"
-#include "ui/actions/run_check.h"
-#include "ui/actions/stored_queue.h"
+#include "ui/workspaces/machine_solids.h"
+#include "ui/workspaces/run_check.h"
+#include "ui/workspaces/stored_queue.h"
 
 #include <chrono>
 #include <cstdint>
@@ -102,6 +102,7 @@ public:
     void watch_jog(bool held, bool focused);
     /// As it is in this frame; nothing where none is connected.
     void see_gamepad(const std::optional<render::Gamepad>& gamepad) { gamepad_ = gamepad; }
+    [[nodiscard]] const std::optional<render::Gamepad>& gamepad() const { return gamepad_; }
     /// A jog is held: frames have to come, lest its dead man stops it.
     [[nodiscard]] bool jogging() const { return jog_->moving(); }
 
@@ -143,6 +144,9 @@ public:
               const std::function<void(project::Project&)>& change,
               const std::string& merge_key);
     void end_step() { history_.close_step(); }
+    /// Takes back the step that edits with this `merge_key` still join; nothing where there is none.
+    void revert_step(const std::string& merge_key);
+    [[nodiscard]] Drag& drag() { return drag_; }
 
     [[nodiscard]] StockWorkspace& stock() { return *stock_; }
     [[nodiscard]] ArmWorkspace& arm() { return *arm_; }
@@ -249,23 +253,25 @@ private:
     void follow_autosave();
     void follow_project();
     void want_plan(); ///< what of it is looked at
-    void follow_job();
-    void follow_begin();
-    void follow_run();
-    void follow_next();
-    void follow_queue();
+    // What follows from the state at the beginning of a frame.
+    void follow_job(const FrameState& now);
+    void follow_begin(const FrameState& now);
+    void follow_run(const FrameState& now);
+    void follow_next(const FrameState& now);
+    void follow_queue(const FrameState& now);
     [[nodiscard]] bool follow_processor(double seconds);
     void open_processor_text(const std::function<void()>& open);
     void write_assembler(const std::string& title, const std::string& text);
     void write_microprogram(const std::string& title, const std::string& text);
-    [[nodiscard]] bool follow_arm(double seconds);
-    void follow_arm_work();
+    [[nodiscard]] bool follow_arm(const FrameState& now, double seconds);
+    void follow_arm_work(const FrameState& now);
     void guarded(const std::function<void()>& action);
 
     AppOptions options_;
     Catalogue catalogue_;
     project::History history_;
     ViewState view_state_;
+    Drag drag_;
     std::vector<Document> documents_; ///< by project number of the history
     project::RecentFiles recent_;
     project::WindowSettings kept_settings_; ///< as they are in their file

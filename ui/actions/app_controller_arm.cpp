@@ -11,7 +11,7 @@
 #include "core/pmac/driver/pmac_program.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/arm_workspace.h"
+#include "ui/workspaces/arm_workspace.h"
 
 #include <fmt/format.h>
 
@@ -81,7 +81,7 @@ void tell_findings(ViewState& view_state, const std::vector<Diagnostic>& found, 
 } // namespace
 
 /// It has an arm once it is looked at; a connected one is drawn at its position.
-bool AppController::follow_arm(double seconds) {
+bool AppController::follow_arm(const FrameState& now, double seconds) {
     if (view_state_.workspace == Workspace::arm && !arm_->loaded() && !arm_failed_) {
         arm_failed_ = true; // said once
         guarded([this] { arm_->load("motoman-l3"); });
@@ -90,8 +90,8 @@ bool AppController::follow_arm(double seconds) {
     if (!arm_->loaded()) {
         return false;
     }
-    follow_arm_work();
-    const ConnectionView connection = connection_->view();
+    follow_arm_work(now);
+    const ConnectionView& connection = now.connection;
     arm_->card_run().follow(connection.status, seconds);
     if (connection.connected() && connection.row().kind == machine::MachineKind::arm) {
         arm_->follow(connection.status.position, connection.status.position_known);
@@ -100,8 +100,7 @@ bool AppController::follow_arm(double seconds) {
 }
 
 /// What was asked of the background: faults of the text, its simulation, the path on the arm.
-void AppController::follow_arm_work() {
-    const FrameState now = look();
+void AppController::follow_arm_work(const FrameState& now) {
     arm_->program().follow(now.project.arm.program);
     arm_->motion_file().follow(now.project.arm.motion_file);
     if (const auto simulation = arm_->program().take()) {

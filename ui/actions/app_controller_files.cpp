@@ -11,13 +11,13 @@
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/at_rest.h"
-#include "ui/actions/kept_view_state.h"
-#include "ui/actions/pending_import.h"
-#include "ui/actions/processor_texts.h"
-#include "ui/actions/shown_grid.h"
-#include "ui/actions/stock_workspace.h"
-#include "ui/actions/surface_export.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/kept_view_state.h"
+#include "ui/workspaces/pending_import.h"
+#include "ui/workspaces/processor_texts.h"
+#include "ui/workspaces/shown_grid.h"
+#include "ui/workspaces/stock_workspace.h"
+#include "ui/workspaces/surface_export.h"
 
 #include <fmt/format.h>
 
@@ -207,6 +207,7 @@ void AppController::new_from_preset(std::string_view preset_id) {
 }
 
 void AppController::begin(project::Project other, const std::string& title, Document document) {
+    drag_.commit();
     const bool nothing_done = history_.undo_title().empty() && history_.redo_title().empty();
     if (nothing_done &&
         this->document().file.empty()) { // as the program makes it at its start: nothing to go back to

@@ -5,8 +5,8 @@
 #include "core/project/export_note.h"
 #include "core/project/surface.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/pending_import.h"
-#include "ui/actions/surface_export.h"
+#include "ui/workspaces/pending_import.h"
+#include "ui/workspaces/surface_export.h"
 
 namespace millwright::actions {
 

@@ -5,7 +5,7 @@
 #include "core/cordic/image.h"
 #include "core/cordic/microprogram.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/processor_workspace.h"
+#include "ui/workspaces/processor_workspace.h"
 
 #include <utility>
 

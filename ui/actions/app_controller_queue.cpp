@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/job_source.h"
+#include "ui/workspaces/job_source.h"
 
 #include <algorithm>
 #include <utility>
@@ -49,7 +49,7 @@ void AppController::open_queued(QueuedJobId id) {
     }
 }
 
-void AppController::follow_queue() {
+void AppController::follow_queue(const FrameState& now) {
     if (const auto failure = queue_.take_failure()) {
         tell(view_state_,
              widgets::Severity::danger,
@@ -57,7 +57,6 @@ void AppController::follow_queue() {
                            "See the job's log for how it ended."),
              failure->place.file.string());
     }
-    const FrameState now = look();
     if (!loading_ || !worked_out(now)) {
         return;
     }

@@ -1,8 +1,8 @@
 // What a person can do with the arm as a whole; its joints and its goal are moved by panels and the view.
 #include "ui/actions/app_controller.h"
-#include "ui/actions/arm_workspace.h"
-#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/workspaces/arm_workspace.h"
+#include "ui/workspaces/at_rest.h"
 
 namespace millwright::actions {
 

@@ -3,8 +3,8 @@
 #include "core/pmac/driver/arm_axes.h"
 #include "core/project/taught_points.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/arm_workspace.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/workspaces/arm_workspace.h"
 
 namespace millwright::actions {
 

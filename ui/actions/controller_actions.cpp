@@ -1,8 +1,8 @@
 // Connecting a machine and what it can do as a whole. Its axes are moved by the panel (hold_to_run_jog.h).
 #include "ui/actions/app_controller.h"
-#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/machine_connection.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/machine_connection.h"
 
 namespace millwright::actions {
 

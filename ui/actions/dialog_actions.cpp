@@ -1,7 +1,7 @@
 #include "core/project/gcode_file.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
+#include "ui/workspaces/at_rest.h"
 
 namespace millwright::actions {
 

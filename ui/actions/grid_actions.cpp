@@ -3,7 +3,7 @@
 #include "core/project/setting_tables.h"
 #include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/shown_grid.h"
+#include "ui/workspaces/shown_grid.h"
 
 namespace millwright::actions {
 

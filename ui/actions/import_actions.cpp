@@ -1,7 +1,7 @@
 // Surfaces of other programs: bringing them in, and writing for them.
 #include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/pending_import.h"
+#include "ui/workspaces/pending_import.h"
 
 namespace millwright::actions {
 

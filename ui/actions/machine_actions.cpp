@@ -4,12 +4,12 @@
 #include "core/jobs/job_queue.h"
 #include "core/jobs/tool_check.h"
 #include "ui/actions/app_controller.h"
-#include "ui/actions/arm_workspace.h"
-#include "ui/actions/at_rest.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/job_source.h"
-#include "ui/actions/run_check.h"
-#include "ui/actions/start_prompt.h"
+#include "ui/workspaces/arm_workspace.h"
+#include "ui/workspaces/at_rest.h"
+#include "ui/workspaces/job_source.h"
+#include "ui/workspaces/run_check.h"
+#include "ui/workspaces/start_prompt.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

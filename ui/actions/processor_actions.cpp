@@ -1,6 +1,6 @@
 #include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/processor_workspace.h"
+#include "ui/workspaces/processor_workspace.h"
 
 namespace millwright::actions {
 

@@ -1,7 +1,7 @@
 // The simulation of the stock.
 #include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/stock_workspace.h"
+#include "ui/workspaces/stock_workspace.h"
 
 namespace millwright::actions {
 

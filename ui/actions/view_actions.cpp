@@ -1,8 +1,8 @@
 #include "core/plan/skipped_comparisons.h"
 #include "core/project/setting_tables.h"
 #include "ui/actions/internal/simple_action.h"
-#include "ui/actions/shown_grid.h"
-#include "ui/actions/wanted_plan.h"
+#include "ui/workspaces/shown_grid.h"
+#include "ui/workspaces/wanted_plan.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "ui/panels/internal/fields.h"
+#include "ui/panels/fields.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "ui/panels/internal/lines.h"
+#include "ui/panels/lines.h"
 
 namespace millwright::panels {
 

@@ -5,10 +5,10 @@
 #include "core/plan/cut_remarks.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/tool_settings.h"
-#include "ui/actions/shown_grid.h"
-#include "ui/panels/internal/fields.h"
+#include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"
+#include "ui/workspaces/shown_grid.h"
 
 #include <fmt/format.h>
 

@@ -57,21 +57,15 @@ void ArmMouseTool::press(const ArmMouseToolInput& input) {
     held_ = true;
     moved_ = false;
     pressed_ = pixel_of(input.pointer);
-    before_ = input.scene.joints;
     if (grip_->joint < 0) {
         drag_.emplace(std::vector<MovedControlPoint>{{.id = {}, .position = grip_->at}},
                       0,
                       Frame::Identity(),
                       pressed_);
     } else {
-        const auto joints = arm::base_T_joints(input.scene.look->arm(), before_);
+        const auto joints = arm::base_T_joints(input.scene.look->arm(), input.scene.joints);
         local_ = joints[static_cast<std::size_t>(grip_->joint)].inverse() * grip_->at;
     }
-}
-
-ViewEvent ArmMouseTool::moved_to(const Vec3& place, DragStage stage) const {
-    return grip_->is_part() ? ViewEvent(MoveArmPart{place, stage})
-                            : ViewEvent(MoveArmTip{place, before_, stage});
 }
 
 void ArmMouseTool::hold(const ArmMouseToolInput& input, std::vector<ViewEvent>& events) {
@@ -82,19 +76,22 @@ void ArmMouseTool::hold(const ArmMouseToolInput& input, std::vector<ViewEvent>& 
     moved_ = true;
     if (drag_) {
         drag_->move_to(input.view, pixel, input.keys);
-        events.push_back(moved_to(drag_->points().front().position, DragStage::going_on));
+        const Vec3 place = drag_->points().front().position;
+        grip_->is_part() ? events.emplace_back(MoveArmPart{place, DragStage::going_on})
+                         : events.emplace_back(MoveArmTip{place, DragStage::going_on});
     } else {
         const double position = joint_towards(input.scene, grip_->joint, local_, input.view, pixel);
-        events.emplace_back(TurnArmJoint{grip_->joint, position, before_, DragStage::going_on});
+        events.emplace_back(TurnArmJoint{grip_->joint, position, DragStage::going_on});
     }
 }
 
 void ArmMouseTool::finish(DragStage stage, std::vector<ViewEvent>& events) {
-    if (moved_ && drag_) {
-        const bool back = grip_->is_part() && stage == DragStage::cancelled;
-        events.push_back(moved_to(back ? grip_->at : drag_->points().front().position, stage));
+    if (moved_ && grip_->is_part()) {
+        events.emplace_back(MoveArmPart{.stage = stage});
+    } else if (moved_ && drag_) {
+        events.emplace_back(MoveArmTip{.stage = stage});
     } else if (moved_) {
-        events.emplace_back(TurnArmJoint{grip_->joint, before_[grip_->joint], before_, stage});
+        events.emplace_back(TurnArmJoint{.stage = stage});
     }
     drag_.reset();
     held_ = false;

@@ -36,15 +36,13 @@ private:
     void press(const ArmMouseToolInput& input);
     void hold(const ArmMouseToolInput& input, std::vector<ViewEvent>& events);
     void finish(DragStage stage, std::vector<ViewEvent>& events);
-    [[nodiscard]] ViewEvent moved_to(const Vec3& place, DragStage stage) const;
 
     std::optional<ArmGrip> grip_;
     bool held_ = false;
     bool moved_ = false; ///< since it was taken hold of
     bool wants_fit_ = false;
     glm::dvec2 pressed_{};
-    Vec3 local_ = Vec3::Zero(); ///< of a link: where it is held, in its joint's frame
-    arm::JointPositions before_;
+    Vec3 local_ = Vec3::Zero();     ///< of a link: where it is held, in its joint's frame
     std::optional<PointDrag> drag_; ///< of the tip
 };
 

@@ -15,11 +15,13 @@ struct MovedControlPoint {
     Vec3 position = Vec3::Zero();
 };
 
-/// Control points are being dragged: one event a frame in which they moved, and one at the end.
+/// Of what is dragged: one event per frame in which it moved, and one at the end. When
+/// cancelled, what was dragged is to be as it was before the first.
+enum class DragStage { going_on, finished, cancelled };
+
 struct MoveControlPoints {
-    enum class Stage { going_on, finished, cancelled };
-    std::vector<MovedControlPoint> points; ///< where they are to be now; when cancelled, where they began
-    Stage stage = Stage::going_on;
+    std::vector<MovedControlPoint> points; ///< where they are to be now
+    DragStage stage = DragStage::going_on;
 };
 
 /// The selection is to become this one, ascending; empty: nothing is selected.
@@ -38,26 +40,21 @@ struct GoToPathPlace {
     gcode::PathPlace place;
 };
 
-enum class DragStage { going_on, finished, cancelled };
-
-/// The tip of an arm is being dragged: one event a frame. `before`: the joints when it was taken hold of.
 struct MoveArmTip {
     Vec3 tip = Vec3::Zero(); ///< where it is to be
-    arm::JointPositions before;
     DragStage stage = DragStage::going_on;
 };
 
-/// A link of an arm is being dragged.
+/// A link of an arm is dragged.
 struct TurnArmJoint {
     int joint = 0;
     double position = 0.0; ///< where the joint is to be, rad or mm
-    arm::JointPositions before;
     DragStage stage = DragStage::going_on;
 };
 
-/// The zero of the part before the arm is being dragged.
+/// The zero of the part before the arm is dragged.
 struct MoveArmPart {
-    Vec3 at = Vec3::Zero(); ///< in the arm's base; when cancelled, where it began
+    Vec3 at = Vec3::Zero(); ///< in the arm's base
     DragStage stage = DragStage::going_on;
 };
 
@@ -66,7 +63,7 @@ struct ChooseFace {
     int number = 0; ///< its place in the file, from 1
 };
 
-/// The brush went over the machined patch; at first `from` and `to` are one place, as at the end.
+/// The brush goes over the machined patch; at first `from` and `to` are one place.
 struct PaintSurface {
     Vec2 from = Vec2::Zero(), to = Vec2::Zero(); ///< parameters
     DragStage stage = DragStage::going_on;
@@ -81,10 +78,10 @@ struct CloseOutline {};
 /// What was drawn of it is dropped.
 struct DropOutline {};
 
-/// A corner of the outline is being dragged.
+/// A corner of the outline is dragged.
 struct MoveOutlineCorner {
     int corner = 0;
-    Vec2 uv = Vec2::Zero(); ///< where it is to be, while it goes on
+    Vec2 uv = Vec2::Zero(); ///< where it is to be
     DragStage stage = DragStage::going_on;
 };
 

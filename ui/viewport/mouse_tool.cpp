@@ -17,7 +17,6 @@ namespace millwright::viewport {
 namespace {
 
 using widgets::MouseButton;
-using Stage = MoveControlPoints::Stage;
 
 // Pixels at scale 1.
 constexpr double handle_reach_px = 9.0;
@@ -124,6 +123,9 @@ std::vector<ViewEvent> MouseTool::follow(const MouseToolInput& input) {
     if (input.scene.surface && input.scene.surface_tool.kind != SurfaceToolKind::none) {
         return follow_tool(input);
     }
+    if (drag_ && input.pointer.held != MouseButton::left && input.pointer.released != MouseButton::left) {
+        let_go(events); // somewhere else
+    }
     if (!drag_ && !box_) {
         point_at(input);
     }
@@ -221,7 +223,7 @@ void MouseTool::hold(const MouseToolInput& input, std::vector<ViewEvent>& events
         const Vec3 before = drag_->moved();
         drag_->move_to(input.view, pixel, input.keys);
         if (drag_->moved() != before) {
-            events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = Stage::going_on});
+            events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = DragStage::going_on});
         }
     }
 }
@@ -252,9 +254,15 @@ void MouseTool::begin_drag(const MouseToolInput& input, std::vector<ViewEvent>& 
         std::move(points), grabbed, scene_from_workpiece(scene), pressed_->pixel, std::move(shares));
 }
 
+void MouseTool::let_go(std::vector<ViewEvent>& events) {
+    events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = DragStage::finished});
+    drag_.reset();
+    pressed_.reset();
+}
+
 void MouseTool::take_back(std::vector<ViewEvent>& events) {
     if (drag_) {
-        events.emplace_back(MoveControlPoints{.points = drag_->start(), .stage = Stage::cancelled});
+        events.emplace_back(MoveControlPoints{.points = {}, .stage = DragStage::cancelled});
     }
     drag_.reset();
     box_.reset();
@@ -263,7 +271,7 @@ void MouseTool::take_back(std::vector<ViewEvent>& events) {
 
 void MouseTool::release(const MouseToolInput& input, std::vector<ViewEvent>& events) {
     if (drag_) {
-        events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = Stage::finished});
+        events.emplace_back(MoveControlPoints{.points = drag_->points(), .stage = DragStage::finished});
     } else if (box_ && editable(input.scene)) {
         std::vector<ControlPointId> found = control_points_in(*input.scene.surface,
                                                               scene_from_workpiece(input.scene),

@@ -62,6 +62,7 @@ private:
     void release(const MouseToolInput& input, std::vector<ViewEvent>& events);
     void click(const MouseToolInput& input, std::vector<ViewEvent>& events) const;
     void begin_drag(const MouseToolInput& input, std::vector<ViewEvent>& events);
+    void let_go(std::vector<ViewEvent>& events);
     void take_back(std::vector<ViewEvent>& events);
 
     Highlight highlight_;

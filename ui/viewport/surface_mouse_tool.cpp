@@ -60,6 +60,9 @@ std::vector<ViewEvent> SurfaceMouseTool::follow(const SurfaceMouseToolInput& inp
         }
         return events;
     }
+    if (works() && input.pointer.held != MouseButton::left && input.pointer.released != MouseButton::left) {
+        finish(DragStage::finished, events); // let go somewhere else
+    }
     if (input.scene.surface_tool.kind == SurfaceToolKind::brush) {
         paint(input, events);
     } else {
@@ -70,9 +73,9 @@ std::vector<ViewEvent> SurfaceMouseTool::follow(const SurfaceMouseToolInput& inp
 
 void SurfaceMouseTool::finish(DragStage stage, std::vector<ViewEvent>& events) {
     if (last_) {
-        events.emplace_back(PaintSurface{*last_, *last_, stage});
+        events.emplace_back(PaintSurface{.stage = stage});
     } else if (dragging_) {
-        events.emplace_back(MoveOutlineCorner{*corner_, Vec2::Zero(), stage});
+        events.emplace_back(MoveOutlineCorner{.stage = stage});
     }
     last_.reset();
     dragging_ = false;

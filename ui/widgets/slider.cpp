@@ -25,6 +25,34 @@ std::optional<double> stepped(const Press& now, double value, double step) {
     return std::nullopt;
 }
 
+/// Kept by path while the mouse is down on it.
+enum class SliderStage { idle, dragging, given_up };
+
+/// Where the mouse drags it to; Esc takes it back to where it was before.
+std::optional<double>
+dragged(Ui& ui, const std::string& path, const Rect& track, double value, const FieldInfo& info, bool held) {
+    auto& memory = ui.state().memory;
+    double& kept = memory[path + "@slider"];
+    const auto stage = static_cast<SliderStage>(static_cast<int>(kept));
+    const auto keep = [&kept](SliderStage next) { kept = static_cast<double>(next); };
+    double& before = memory[path + "@before"];
+    const bool taken_back = stage == SliderStage::dragging && key_pressed(ImGuiKey_Escape);
+    if (taken_back || !held) { // ImGui lets go at Esc, too
+        keep(held ? SliderStage::given_up : SliderStage::idle);
+        return taken_back ? std::optional(before) : std::nullopt;
+    }
+    if (stage == SliderStage::given_up) {
+        return std::nullopt;
+    }
+    if (stage == SliderStage::idle) {
+        before = value;
+        keep(SliderStage::dragging);
+    }
+    const auto along = static_cast<double>((ImGui::GetIO().MousePos.x - track.x) / track.w);
+    const double unit = std::pow(10.0, info.decimals);
+    return std::round((info.min + std::clamp(along, 0.0, 1.0) * (info.max - info.min)) * unit) / unit;
+}
+
 } // namespace
 
 std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permission& permission) {
@@ -65,10 +93,9 @@ number_slider(Ui& ui, double value, const FieldInfo& info, const Permission& per
               fixed(value, info.decimals) + std::string(info.unit),
               Align::right);
     std::optional<double> wanted = stepped(now, value, info.step > 0.0 ? info.step : 1.0);
-    if (now.held && now.enabled && track.w > 0.0F && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-        const auto along = static_cast<double>((ImGui::GetIO().MousePos.x - track.x) / track.w);
-        const double unit = std::pow(10.0, info.decimals);
-        wanted = std::round((info.min + std::clamp(along, 0.0, 1.0) * span) * unit) / unit;
+    const bool held = now.held && now.enabled && track.w > 0.0F && ImGui::IsMouseDown(ImGuiMouseButton_Left);
+    if (const auto by_mouse = dragged(ui, own, track, value, info, held)) {
+        wanted = by_mouse;
     }
     if (!wanted) {
         return std::nullopt;

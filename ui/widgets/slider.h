@@ -7,7 +7,8 @@
 
 namespace millwright::widgets {
 
-/// A whole number from info.min to info.max, committed while it is dragged; the arrow keys step it.
+/// A whole number from info.min to info.max, committed while it is dragged, and taken back by Esc; the arrow
+/// keys step it.
 std::optional<int> slider(Ui& ui, int value, const FieldInfo& info, const Permission& permission = {});
 
 /// The same for any number, shown with info.decimals; the arrow keys step it by info.step, or by 1. Dragged,

@@ -97,6 +97,33 @@ TEST(History, ADragBackToItsBeginningLeavesNoStep) {
     EXPECT_EQ(history.current().name, "a");
 }
 
+TEST(History, ADragThatIsTakenBackLeavesNoStepAndWhatCouldBeRedone) {
+    History history(named("a"));
+    history.commit(named("b"), "Other");
+    history.undo();
+    history.commit(named("c"), "Drag", "point 3");
+    history.commit(named("d"), "Drag", "point 3");
+    EXPECT_EQ(history.redo_title(), "");
+    history.revert_step("point 3");
+    EXPECT_EQ(history.current().name, "a");
+    EXPECT_EQ(history.undo_title(), "");
+    ASSERT_EQ(history.redo_title(), "Other");
+    history.redo();
+    EXPECT_EQ(history.current().name, "b");
+}
+
+TEST(History, TakesNothingBackButAStepThatGoesOn) {
+    History history(named("a"));
+    history.commit(named("b"), "Drag", "point 3");
+    history.revert_step("point 4");
+    EXPECT_EQ(history.current().name, "b");
+    history.close_step();
+    history.revert_step("point 3");
+    history.revert_step("");
+    EXPECT_EQ(history.current().name, "b");
+    EXPECT_EQ(history.undo_title(), "Drag");
+}
+
 TEST(History, ForgetsTheOldestStepsFirst) {
     History history(named("start"));
     for (int n = 0; n < 600; ++n) {

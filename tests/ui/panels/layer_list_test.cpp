@@ -1,6 +1,6 @@
 #include "ui/panels/layer_list.h"
 
-#include "tests/ui/panels/person.h"
+#include "tests/ui/person/person.h"
 #include "ui/actions/layer_actions.h"
 
 #include <gtest/gtest.h>

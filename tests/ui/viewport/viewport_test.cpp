@@ -9,7 +9,7 @@
 namespace millwright::viewport {
 namespace {
 
-using Stage = MoveControlPoints::Stage;
+using Stage = DragStage;
 
 class ViewportTest : public test::Window {
 protected:
@@ -216,7 +216,20 @@ TEST_F(ViewportTest, TakesADragBackOnEscape) {
     const auto moves = all<MoveControlPoints>();
     ASSERT_EQ(moves.size(), 2U);
     EXPECT_EQ(moves.back().stage, Stage::cancelled);
-    EXPECT_EQ(moves.back().points.front().position, point(1, 1));
+}
+
+TEST_F(ViewportTest, EndsADragWhoseReleaseItHasNotSeen) {
+    show(ViewKind::design);
+    move_to(handle("control_point(1,1)"));
+    press();
+    input.mouse_x += 30.0F;
+    frame();
+    scene.surface_tool.kind = SurfaceToolKind::brush; // the mouse is on the surface alone
+    release();
+    scene.surface_tool.kind = SurfaceToolKind::none;
+    frame();
+    EXPECT_FALSE(viewport().dragging());
+    EXPECT_EQ(all<MoveControlPoints>().back().stage, Stage::finished);
 }
 
 TEST_F(ViewportTest, SelectsByABox) {
