@@ -2,7 +2,7 @@
 // loses no work. Kept apart from the project so that undo never moves the camera.
 #pragma once
 
-#include "core/geometry/net_symmetry.h"
+#include "core/geometry/net_editing.h"
 #include "core/plan/opened_program.h"
 #include "core/project/project.h"
 #include "ui/actions/approach.h"

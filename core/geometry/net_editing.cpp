@@ -1,7 +1,10 @@
-#include "core/geometry/net_symmetry.h"
+#include "core/geometry/net_editing.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace millwright::geometry {
 
@@ -64,6 +67,27 @@ Vec2 side_of(const ControlNet& net, const NetSymmetry& symmetry, const NetPlace&
 
 Vec3 share_of_way(const Vec2& side, const Vec2& leads) {
     return {side.x() * leads.x(), side.y() * leads.y(), 1.0};
+}
+
+namespace {
+
+void turn_points(std::vector<Vec3>& points, double turn) {
+    const Mat3 rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+    for (Vec3& point : points) {
+        point = rotation * point;
+    }
+}
+
+} // namespace
+
+ControlNet turned(ControlNet net, double turn) {
+    turn_points(net.points, turn);
+    return net;
+}
+
+BsplineNet turned(BsplineNet net, double turn) {
+    turn_points(net.points, turn);
+    return net;
 }
 
 } // namespace millwright::geometry
