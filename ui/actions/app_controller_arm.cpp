@@ -5,7 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/motion/taught_points_motion.h"
+#include "core/motion/arm_motion.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_file.h"
 #include "core/pmac/driver/pmac_program.h"

@@ -8,8 +8,8 @@
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/tool_roll.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
-#include "core/motion/taught_points_motion.h"
 #include "core/project/assets.h"
 
 #include <fmt/format.h>

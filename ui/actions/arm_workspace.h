@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/arm/arm_inverse.h"
-#include "core/motion/taught_points_motion.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/trajectory.h"
 #include "core/pmac/emulator/shared_memory_stream.h"
 #include "core/project/arm_input.h"
