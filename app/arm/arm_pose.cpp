@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
 #include "core/kinematics/tool_rotation.h"
 
 #include <CLI/Config.hpp>

@@ -7,7 +7,7 @@
 #include "app/plan/thesis_grid.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/kinematics/rotary_tilt_machine.h"
+#include "core/kinematics/rotary_tilt.h"
 #include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "core/toolpath/thesis_files.h"

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/kinematics/file_bounds.h"
+#include "core/kinematics/machine_file.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/solid_colors.h"
+#include "core/kinematics/machine_solids.h"
 
 #include <array>
 #include <cmath>

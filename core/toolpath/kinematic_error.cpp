@@ -4,7 +4,6 @@
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/geometry/surface_point.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/error_field.h"
 #include "core/toolpath/fixed_axis.h"

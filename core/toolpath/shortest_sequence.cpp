@@ -4,7 +4,6 @@
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/internal/path_point_text.h"
 

@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/internal/path_point_text.h"
 #include "core/toolpath/tool_poses.h"

@@ -7,7 +7,7 @@
 #include "core/arm/arm_zone.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
+#include "core/kinematics/tool_rotation.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
 #include "core/project/assets.h"

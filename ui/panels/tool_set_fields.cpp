@@ -1,6 +1,6 @@
 #include "ui/panels/tool_set_fields.h"
 
-#include "core/kinematics/rotary_tilt_machine.h"
+#include "core/kinematics/rotary_tilt.h"
 #include "ui/panels/internal/fields.h"
 
 #include <limits>
