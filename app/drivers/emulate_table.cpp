@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/emulators/table/table_emulator.h"
 #include "core/kinematics/machine_file.h"
-#include "core/links/faults.h"
+#include "core/links/fault_link.h"
 #include "core/project/assets.h"
 
 #include <CLI/App.hpp>

@@ -7,7 +7,7 @@
 #include "core/emulators/emulator_server.h"
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

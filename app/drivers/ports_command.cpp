@@ -1,6 +1,6 @@
 #include "app/drivers/ports_command.h"
 
-#include "core/links/serial_ports.h"
+#include "core/links/serial_link.h"
 
 #include <fmt/format.h>
 

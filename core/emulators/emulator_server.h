@@ -5,7 +5,7 @@
 #include "core/base/clock.h"
 #include "core/base/fair_mutex.h"
 #include "core/emulators/emulator.h"
-#include "core/links/faults.h"
+#include "core/links/fault_link.h"
 #include "core/links/link.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "ui/panels/connection_panel.h"
 
 #include "core/base/sentences.h"
-#include "core/links/serial_ports.h"
+#include "core/links/serial_link.h"
 #include "ui/actions/arm_workspace.h"
 #include "ui/panels/internal/fields.h"
 #include "ui/panels/manual_position_fields.h"

@@ -2,7 +2,7 @@
 // and a link that is lost and made again.
 #include "core/base/files.h"
 #include "core/emulators/grbl/grbl_server.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/ui/panels/grbl_bench.h"
 #include "tests/ui/panels/person.h"
 

@@ -6,8 +6,7 @@
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"
 #include "core/links/serial_link.h"
-#include "core/links/tcp_link.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/core/links/reading.h"
 #include "tests/support/scratch_folder.h"
 

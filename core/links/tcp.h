@@ -1,5 +1,4 @@
-// The listening end of a TCP connection. One client at a time holds it; another one waits a moment in case
-// that one is just leaving, and is then told who it is and sent away.
+// TCP connections: the link to a controller with a network port, and the listening end for emulators.
 #pragma once
 
 #include "core/links/link.h"
@@ -7,6 +6,35 @@
 #include <cstdint>
 
 namespace millwright::links {
+
+// A TCP connection to a controller with a network port, or to an emulator.
+
+class TcpLink final : public Link {
+public:
+    TcpLink(std::string host, std::uint16_t port);
+    TcpLink(const TcpLink&) = delete;
+    TcpLink& operator=(const TcpLink&) = delete;
+    ~TcpLink() override;
+
+    [[nodiscard]] std::string name() const override;
+    /// Waits for an answer at most 5 s.
+    void open() override;
+    void write(std::string_view bytes) override;
+    [[nodiscard]] std::string read() override;
+    void wait(double seconds) override;
+    /// If the other end said that it is busy, this is what it said.
+    [[nodiscard]] std::optional<std::string> lost() const override;
+    void close() noexcept override;
+
+private:
+    struct Port;
+    std::string host_;
+    std::uint16_t number_;
+    std::unique_ptr<Port> port_;
+};
+
+// The listening end of a TCP connection. One client at a time holds it; another one waits a moment in case
+// that one is just leaving, and is then told who it is and sent away.
 
 class TcpServer final : public Link {
 public:
