@@ -4,7 +4,7 @@
 #include "core/base/units.h"
 #include "core/gcode/canon_frame.h"
 #include "core/gcode/chords.h"
-#include "core/gcode/line_ends.h"
+#include "core/gcode/program_text.h"
 #include "core/gcode_programs/internal/unsupported_features.h"
 #include "core/gcode_programs/placement.h"
 #include "core/gcode_programs/programmed_feed.h"

@@ -5,8 +5,8 @@
 #include "core/base/error.h"
 #include "core/drivers/driver.h"
 #include "core/gcode/axes.h"
-#include "core/gcode/dialect.h"
 #include "core/gcode/modal_state.h"
+#include "core/gcode/reader_settings.h"
 #include "core/geometry/vectors.h"
 
 #include <array>

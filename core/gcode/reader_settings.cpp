@@ -1,4 +1,4 @@
-#include "core/gcode/dialect.h"
+#include "core/gcode/reader_settings.h"
 
 namespace millwright::gcode {
 
