@@ -8,9 +8,9 @@
 #include "core/cordic_machine/internal/cordic_path.h"
 #include "core/gcode/canon_frame.h"
 #include "core/gcode/chords.h"
+#include "core/gcode_programs/cut_program.h"
 #include "core/gcode_programs/placement.h"
 #include "core/gcode_programs/programmed_feed.h"
-#include "core/gcode_programs/xyz_machine.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
