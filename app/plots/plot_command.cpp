@@ -15,7 +15,7 @@
 #include "core/base/text.h"
 #include "core/hpgl/reader.h"
 #include "core/plot/cut_path.h"
-#include "core/plot/decode_within.h"
+#include "core/plot/decode.h"
 #include "core/plot/point_file.h"
 #include "core/plot/stroke_svg.h"
 #include "core/plot/work_time.h"

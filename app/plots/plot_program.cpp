@@ -10,8 +10,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/tool_comments.h"
-#include "core/plot/decode_path.h"
-#include "core/plot/decode_within.h"
+#include "core/plot/decode.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>

@@ -9,8 +9,8 @@
 #include "core/plot/closing.h"
 #include "core/plot/level_text.h"
 #include "core/plot/ordering.h"
+#include "core/plot/stroke_plan.h"
 #include "core/plot/tab_width.h"
-#include "core/plot/unprocessed_strokes.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>

@@ -6,10 +6,19 @@
 #include "core/plot/compensation.h"
 #include "core/plot_strokes/strokes.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace millwright::plot {
+
+// How long a cutting path may be.
+
+/// A point takes 40 bytes, and about as many where it is drawn.
+inline constexpr std::size_t most_path_points = 20'000'000;
+
+/// Throws Error if a path has more points than that.
+void expect_not_too_long(std::size_t points);
 
 /// Bridges that hold a part in its plate until it is broken out: the tool rises on the way around closed
 /// strokes.
