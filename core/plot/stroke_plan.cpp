@@ -7,7 +7,7 @@
 #include "core/plot/compensation.h"
 #include "core/plot/linking.h"
 #include "core/plot/ordering.h"
-#include "core/plot_strokes/hatching.h"
+#include "core/plot_strokes/region.h"
 
 #include <fmt/format.h>
 
