@@ -9,7 +9,6 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
 

@@ -8,7 +8,6 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/cordic/assembler.h"
-#include "core/cordic/loop_detector.h"
 #include "core/cordic/microprogram.h"
 #include "core/cordic/run_report.h"
 #include "core/gcode/interpreter.h"
