@@ -4,7 +4,6 @@
 #include "core/base/units.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic_machine/internal/cordic_code.h"
-#include "core/cordic_machine/internal/cordic_commands.h"
 #include "core/cordic_machine/internal/cordic_path.h"
 #include "core/gcode/canon_frame.h"
 #include "core/gcode/chords.h"
