@@ -4,7 +4,7 @@
 #include "app/command_line/usage_error.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"
 #include "core/links/tcp.h"

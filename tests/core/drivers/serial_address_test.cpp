@@ -1,6 +1,6 @@
 // Serial ports as people write them, and the settings that the system gets.
 #include "core/drivers/points/points_driver.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/emulators/table/table_emulator.h"
 #include "core/jobs/point_job.h"
 #include "core/links/link.h"

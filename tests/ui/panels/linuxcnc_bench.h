@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/clock.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/emulators/linuxcnc/linuxcnc_emulator.h"
 #include "core/links/tcp.h"
 #include "tests/support/machines.h"

@@ -1,7 +1,7 @@
 #include "core/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
-#include "core/emulators/grbl/grbl_server.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 #include "core/jobs/dispatcher.h"
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"

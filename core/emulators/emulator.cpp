@@ -1,4 +1,4 @@
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 
 #include "core/base/error.h"
 
