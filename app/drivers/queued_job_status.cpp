@@ -1,7 +1,7 @@
 #include "app/drivers/queued_job_status.h"
 
 #include "core/base/sentences.h"
-#include "core/jobs/resume_point.h"
+#include "core/jobs/recovery.h"
 
 #include <fmt/format.h>
 

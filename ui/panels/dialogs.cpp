@@ -1,6 +1,6 @@
 #include "ui/panels/dialogs.h"
 
-#include "core/jobs/resume_point.h"
+#include "core/jobs/recovery.h"
 #include "ui/actions/at_rest.h"
 #include "ui/panels/color_dialog.h"
 #include "ui/panels/internal/fields.h"
