@@ -3,7 +3,7 @@
 #include "app/command_line/arm_choice.h"
 #include "app/command_line/diagnostics.h"
 #include "app/command_line/watched_work.h"
-#include "core/arm/arm_reach.h"
+#include "core/arm/arm_path.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"

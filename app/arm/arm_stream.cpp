@@ -2,7 +2,6 @@
 
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_motion_file.h"
-#include "core/arm/arm_motion_ways.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,5 +1,5 @@
 // The part of AppController that deals with the arm: what it shows, plays, and gives to its card.
-#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_motion_file.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -2,7 +2,6 @@
 
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_hold.h"
-#include "core/arm/arm_rates.h"
 #include "core/arm/arm_simulation.h"
 #include "core/arm/arm_zone.h"
 #include "core/base/error.h"
