@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/grid/internal/rows.h"
+#include "core/grid/internal/parallel_nodes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "core/grid/elliptic_solver.h"
-#include "core/grid/internal/node_stencil.h"
+#include "core/grid/internal/node_step.h"
 
 #include <vector>
 

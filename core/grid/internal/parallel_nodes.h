@@ -1,14 +1,18 @@
-// Work on all nodes of an array in parallel, in pieces that are worth a thread.
+// Work on the nodes of an array or on whole tracks, in parallel.
 #pragma once
 
 #include "core/base/parallel.h"
+#include "core/base/progress.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <limits>
 #include <vector>
 
 namespace millwright::grid {
+
+// Work on all nodes of an array in parallel, in pieces that are worth a thread.
 
 /// As many nodes as are worth handing to another thread: of work that takes some 100 ns per node, and of
 /// less.
@@ -64,6 +68,18 @@ template <class Body> void for_pieces(std::size_t nodes, const Body& body) {
     }
     parallel_for(
         static_cast<std::ptrdiff_t>(pieces), 1, [&](std::ptrdiff_t k) { run(static_cast<std::size_t>(k)); });
+}
+
+// Work on tracks, one after another or side by side.
+
+/// Calls `body` for each track in parallel and tells `progress` how many are done.
+template <typename Body> void each_track(std::ptrdiff_t count, const Progress& progress, Body body) {
+    std::atomic<int> done = 0;
+    parallel_for(count, 1, [&](std::ptrdiff_t t) {
+        progress.check();
+        body(static_cast<std::size_t>(t));
+        progress.report(static_cast<double>(++done) / static_cast<double>(count));
+    });
 }
 
 } // namespace millwright::grid

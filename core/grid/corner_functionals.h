@@ -1,10 +1,12 @@
-// What functionals over the corners of the cells of a grid have in common: a quarter of the sum over the four
-// corner triangles of every cell, and its gradient at the nodes. Same bytes on any number of threads.
+// Functionals over the corners of the cells of a grid, and what they have in common.
 #pragma once
 
 #include "core/base/numbers.h"
-#include "core/grid/discrete_functional.h"
-#include "core/grid/internal/rows.h"
+#include "core/grid/elliptic_equations.h"
+#include "core/grid/grid.h"
+#include "core/grid/internal/parallel_nodes.h"
+#include "core/grid/node_array.h"
+#include "core/grid/weight.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +15,27 @@
 #include <span>
 #include <vector>
 
+namespace millwright::grid {
+
+// The grid functional I_s + 2 LV I_v + LO I_o on the grid itself instead of its Euler equations: a quarter of
+// the sum over the four corner triangles of every cell (after Ivanenko 1993). Its smoothness term grows
+// without bound as a triangle closes, so that a descent which starts without a fold never makes one.
+
+struct DiscreteFunctional {
+    double value = 0.0; ///< infinity if a corner triangle is not positive or the weight is not finite
+    NodeArray gradient; ///< d value / d node, about -2 (R_X, R_Y) inside; empty if the value is infinite
+};
+
+/// Parallel over rows, same bytes on any number of threads. Throws Error if the weight does.
+[[nodiscard]] DiscreteFunctional
+discrete_functional(const NodeArray& nodes, const Weight& weight, const FunctionalWeights& lambda);
+
+} // namespace millwright::grid
+
 namespace millwright::grid::internal {
+
+// What functionals over the corners of the cells of a grid have in common: a quarter of the sum over the four
+// corner triangles of every cell, and its gradient at the nodes. Same bytes on any number of threads.
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -133,3 +155,17 @@ DiscreteFunctional sum_over_corners(const NodeArray& nodes, const Weight& weight
 }
 
 } // namespace millwright::grid::internal
+
+namespace millwright::grid {
+
+// The energy of a harmonic map (Winslow 1967; Dvinsky 1991) under the metric M = diag(m^2, 1), m along the
+// tracks: over the corners of the cells (x_xi' M x_xi + x_eta' M x_eta) / (sqrt(det M) J). Where m is large,
+// nodes of one track come close together, and tracks stay where they are as far as they can. With one m for
+// both directions nothing would move, for in the plane the energy does not know the scale of a metric.
+
+/// As discrete_functional(); `m` is positive. Parallel over rows, same bytes on any number of threads. Throws
+/// Error if `m` does.
+[[nodiscard]] DiscreteFunctional
+harmonic_functional(const NodeArray& nodes, const Weight& m, TrackDirection direction);
+
+} // namespace millwright::grid
