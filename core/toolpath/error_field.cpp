@@ -5,7 +5,7 @@
 #include "core/geometry/surface_point.h"
 #include "core/kinematics/forward.h"
 #include "core/toolpath/body_clearance.h"
-#include "core/toolpath/internal/move_looks.h"
+#include "core/toolpath/internal/move_error.h"
 #include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
