@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "ui/widgets/internal/draw.h"
-#include "ui/widgets/internal/early_text.h"
+#include "ui/widgets/internal/edit.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
 #include "ui/widgets/internal/wrap.h"
