@@ -11,7 +11,7 @@
 #include "ui/actions/stock_workspace.h"
 #include "ui/render/camera.h"
 #include "ui/render/view_colors.h"
-#include "ui/render/window_place.h"
+#include "ui/render/window_context.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"

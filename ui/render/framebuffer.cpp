@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "ui/render/internal/gl.h"
-#include "ui/render/internal/read_pixels.h"
 
 #include <algorithm>
 
