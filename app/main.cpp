@@ -1,15 +1,13 @@
 // The program: finds out which command is meant, runs it, and tells how it ended.
 // Exit codes: 0 done, 1 the work failed with a diagnostic, 2 wrong usage, 3 the program gouges the part.
 #include "app/arm/arm_command.h"
-#include "app/command_line/finite_number.h"
 #include "app/command_line/help_format.h"
 #include "app/command_line/kept_outputs.h"
-#include "app/command_line/list_options.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/output_conflicts.h"
-#include "app/command_line/output_streams.h"
 #include "app/command_line/suggestion.h"
+#include "app/command_line/terminal.h"
 #include "app/command_line/threads_option.h"
-#include "app/command_line/usage_error.h"
 #include "app/cordic/cordic_command.h"
 #include "app/drivers/emulate_command.h"
 #include "app/drivers/jobs_command.h"

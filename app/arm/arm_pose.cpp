@@ -1,7 +1,7 @@
 #include "app/arm/arm_pose.h"
 
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_inverse.h"
 #include "core/arm/arm_solver.h"

@@ -1,7 +1,7 @@
 #include "app/arm/arm_reach.h"
 
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/diagnostics.h"
+#include "app/command_line/command.h"
 #include "app/command_line/watched_work.h"
 #include "core/arm/arm_path.h"
 #include "core/base/error.h"

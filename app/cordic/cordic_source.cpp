@@ -1,8 +1,8 @@
 #include "app/cordic/cordic_source.h"
 
-#include "app/command_line/diagnostics.h"
+#include "app/command_line/command.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/text_validator.h"
 #include "core/base/counted.h"
 #include "core/base/files.h"
 #include "core/base/text.h"

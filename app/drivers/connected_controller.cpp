@@ -1,8 +1,8 @@
 #include "app/drivers/connected_controller.h"
 
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/prompt.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/terminal.h"
 #include "app/drivers/job_keys.h"
 #include "app/drivers/job_printer.h"
 #include "app/drivers/pmac_protections.h"

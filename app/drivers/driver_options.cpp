@@ -1,6 +1,6 @@
 #include "app/drivers/driver_options.h"
 
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/machine/drivers_by_name.h"
 
 #include <CLI/App.hpp>

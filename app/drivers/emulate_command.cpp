@@ -1,6 +1,6 @@
 #include "app/drivers/emulate_command.h"
 
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "app/drivers/emulate_table.h"
 #include "app/drivers/emulation.h"
 #include "core/base/counted.h"

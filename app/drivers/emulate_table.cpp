@@ -1,7 +1,7 @@
 #include "app/drivers/emulate_table.h"
 
+#include "app/command_line/option_values.h"
 #include "app/command_line/record_choice.h"
-#include "app/command_line/usage_error.h"
 #include "app/drivers/emulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

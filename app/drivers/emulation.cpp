@@ -1,7 +1,7 @@
 #include "app/drivers/emulation.h"
 
-#include "app/command_line/interrupt.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"
 #include "core/emulators/emulator.h"

@@ -1,7 +1,7 @@
 // What a person reads on the terminal of a job that runs: how far it is, and what it waits for.
 #pragma once
 
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
 #include "core/jobs/dispatcher.h"
 
 #include <string>

@@ -1,9 +1,8 @@
 #include "app/drivers/job_series.h"
 
-#include "app/command_line/finite_number.h"
 #include "app/command_line/given_options.h"
-#include "app/command_line/prompt.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/terminal.h"
 #include "app/drivers/queued_job_status.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

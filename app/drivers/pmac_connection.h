@@ -1,7 +1,7 @@
 // One PMAC on the command line: a connection, and questions to it that Ctrl+C ends.
 #pragma once
 
-#include "app/command_line/interrupt.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/clock.h"
 #include "core/pmac/driver/pmac_driver.h"
 #include "core/pmac_service/card_talk.h"

@@ -1,8 +1,7 @@
 // How tool changes are made, on the command line.
 #include "app/drivers/tool_change_options.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/base/files.h"
 
 #include <CLI/App.hpp>

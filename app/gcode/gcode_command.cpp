@@ -1,6 +1,6 @@
 #include "app/gcode/gcode_command.h"
 
-#include "app/command_line/diagnostics.h"
+#include "app/command_line/command.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/posting.h"
 #include "app/gcode/gcode_options.h"

@@ -1,8 +1,7 @@
 #include "app/plan/thesis_command.h"
 
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/usage_error.h"
 #include "app/plan/thesis_form.h"
 #include "app/plan/thesis_grid.h"
 #include "core/base/error.h"

@@ -1,9 +1,7 @@
 #include "app/plan/thesis_grid.h"
 
-#include "app/command_line/interrupt.h"
-#include "app/command_line/option_choices.h"
-#include "app/command_line/progress_printer.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/watched_work.h"
 #include "app/plan/thesis_form.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,6 +1,6 @@
 #include "app/plots/picture_trace.h"
 
-#include "app/command_line/finite_number.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/picture_choice.h"
 #include "app/plots/stroke_cutting.h"

@@ -1,7 +1,6 @@
 #include "app/plots/plot_command.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/carving.h"

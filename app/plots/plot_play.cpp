@@ -1,10 +1,9 @@
 #include "app/plots/plot_play.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/interrupt.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/progress_printer.h"
 #include "app/command_line/record_choice.h"
+#include "app/command_line/watched_work.h"
 #include "app/drivers/connected_controller.h"
 #include "app/drivers/job_series.h"
 #include "app/plots/cutting.h"

@@ -1,8 +1,7 @@
 #include "app/plots/plot_program.h"
 
-#include "app/command_line/finite_number.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/usage_error.h"
 #include "app/plots/other_than_plot.h"
 #include "app/plots/plot_points.h"
 #include "core/base/error.h"

@@ -1,9 +1,7 @@
 #include "app/plots/stroke_cutting.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/text_validator.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/closing.h"

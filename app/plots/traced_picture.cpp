@@ -1,7 +1,6 @@
 #include "app/plots/traced_picture.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "core/base/error.h"
 
 #include <CLI/App.hpp>

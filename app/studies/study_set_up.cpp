@@ -1,9 +1,8 @@
 #include "app/studies/study_set_up.h"
 
-#include "app/command_line/interrupt.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
 #include "app/studies/ranks.h"
 #include "app/studies/spread_set_up.h"
 #include "core/base/counted.h"

@@ -1,7 +1,12 @@
-// Standard output and standard error that never end what is running: a write that fails is kept in mind.
+// Standard output and standard error that never end what is running, and asking the person at the terminal.
 #pragma once
 
+#include <stop_token>
+#include <string>
+
 namespace millwright::app {
+
+// Standard output and standard error that never end what is running: a write that fails is kept in mind.
 
 /// To be called first. From then on no write to stdout or stderr fails or throws, whatever became of the
 /// disk, the pipe or the terminal, and a file size limit is an error as any other. Handles 0 to 2 that are
@@ -15,5 +20,11 @@ void guard_output_streams();
 /// errno of the first write to standard output that failed, after which nothing more is written to it; 0:
 /// none did. Writes what is still in the buffer.
 [[nodiscard]] int output_failure();
+
+// Asking the person at the terminal.
+
+/// Writes `text` on standard output and returns the line of standard input that answers it; empty at its end.
+/// Throws Error where there is no one to read the question, and Cancelled as soon as `stop` is asked for.
+[[nodiscard]] std::string prompt(const std::string& text, const std::stop_token& stop);
 
 } // namespace millwright::app
