@@ -1,5 +1,4 @@
-#include "app/arm/arm_pose.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "app/command_line/option_values.h"
 #include "core/arm/arm_forward.h"

@@ -1,5 +1,4 @@
-#include "app/arm/arm_reach.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "app/command_line/command.h"
 #include "app/command_line/watched_work.h"

@@ -1,5 +1,4 @@
-#include "app/arm/arm_stream.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_motion_file.h"
 #include "core/arm/arm_simulation.h"
