@@ -1,6 +1,5 @@
-#include "app/cordic/cordic_run.h"
-
 #include "app/command_line/json_members.h"
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_motion.h"
 #include "app/cordic/cordic_plc.h"
 #include "app/cordic/cordic_remarks.h"
