@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/command_line/watched_work.h"
-#include "app/drivers/job_keys.h"
-#include "app/drivers/tool_change_options.h"
+#include "app/drivers/driver_options.h"
+#include "app/drivers/job_terminal.h"
 #include "core/base/clock.h"
 #include "core/base/progress.h"
 #include "core/drivers/driver.h"

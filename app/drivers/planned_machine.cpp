@@ -2,8 +2,7 @@
 
 #include "app/command_line/command.h"
 #include "app/command_line/option_values.h"
-#include "app/drivers/job_keys.h"
-#include "app/drivers/job_printer.h"
+#include "app/drivers/job_terminal.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"

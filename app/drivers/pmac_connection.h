@@ -11,6 +11,15 @@
 
 namespace millwright::app {
 
+// What the command line reports to a person of a PMAC's protections and of the power of its motors.
+
+/// Which protections the card has off, once it has reported that.
+void warn_of_protections(const pmac::PmacDriver& driver, Clock& clock);
+
+/// Drops the link, and tells what became of the motors' power. False if the card did not confirm it: that is
+/// told, too.
+bool part_from(pmac::PmacDriver& driver);
+
 /// Connected, with the joint limits of `arm` (a name or a file) and with axis 5 where the card has a motor 5,
 /// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if no
 /// PMAC answers.

@@ -9,7 +9,6 @@
 #include "app/drivers/driver_options.h"
 #include "app/drivers/job_series.h"
 #include "app/drivers/planned_machine.h"
-#include "app/drivers/tool_change_options.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/gcode_programs/machine_program.h"

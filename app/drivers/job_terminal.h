@@ -1,12 +1,16 @@
-// A running job under the keys of the person at the terminal: p holds, r resumes (also after M0), + and -
-// change the feed by 10 %, 0 makes it 100 % again, b switches single block, o optional stops, q stops.
+// A running job on the terminal: what a person reads of it, and the keys that act on it.
 #pragma once
 
+#include "app/command_line/watched_work.h"
 #include "core/jobs/dispatcher.h"
 
+#include <string>
 #include <thread>
 
 namespace millwright::app {
+
+// A running job under the keys of the person at the terminal: p holds, r resumes (also after M0), + and -
+// change the feed by 10 %, 0 makes it 100 % again, b switches single block, o optional stops, q stops.
 
 struct JobSwitches {
     bool optional_stop = false;
@@ -33,6 +37,22 @@ private:
     JobSwitches switches_;
     int over_ = -1;       ///< readable when the thread is to end
     std::jthread thread_; // last: it uses what stands before it
+};
+
+// What a person reads on the terminal of a job that runs: how far it is, and what it waits for.
+
+class JobPrinter {
+public:
+    /// `keys`: can be pressed.
+    void show(const jobs::JobReport& report, bool keys);
+    /// Of what comes before the job.
+    void show(const Progress::Report& report) { printer_.show(report); }
+
+private:
+    void tell_waiting(const drivers::DriverStatus& now, bool keys);
+
+    ProgressPrinter printer_;
+    std::string waits_for_; ///< that was reported; empty: nothing
 };
 
 } // namespace millwright::app

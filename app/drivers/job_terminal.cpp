@@ -1,4 +1,4 @@
-#include "app/drivers/job_keys.h"
+#include "app/drivers/job_terminal.h"
 
 #include "core/base/error.h"
 
@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 
 namespace millwright::app {
 
@@ -117,6 +118,34 @@ void JobKeys::obey(char key) {
         }
     } catch (const Error& error) {
         fmt::print(stderr, "\nmillwright: {}\n", to_text(error.diagnostic()));
+    }
+}
+
+namespace {
+
+using drivers::DriverState;
+
+} // namespace
+
+void JobPrinter::show(const jobs::JobReport& report, bool keys) {
+    const drivers::DriverStatus& now = report.driver;
+    const bool holding = now.state == DriverState::holding;
+    tell_waiting(now, keys);
+    printer_.pause(holding);
+    printer_.show({report.fraction(), report.progress_text() + (holding ? ", holding" : "")});
+}
+
+/// On a line of its own, whole: a bar has no room for what a person has to do.
+void JobPrinter::tell_waiting(const drivers::DriverStatus& now, bool keys) {
+    const std::string why = now.state == DriverState::holding
+                                ? "holding" + (now.message.empty() ? "" : ": " + now.message)
+                                : std::string();
+    if (why != std::exchange(waits_for_, why) && !why.empty()) {
+        const auto& change = now.tool_change;
+        const bool for_tool = change && change->waits && !change->held && !change->keeps_zero;
+        const std::string_view goes_on =
+            for_tool ? " (r to resume, with the current Z zero)" : " (r to resume)";
+        printer_.say(why + (keys ? std::string(goes_on) : ""));
     }
 }
 
