@@ -1,10 +1,9 @@
-#include "app/studies/study_set_up.h"
-
 #include "app/command_line/option_values.h"
 #include "app/command_line/output_transaction.h"
 #include "app/command_line/watched_work.h"
 #include "app/studies/ranks.h"
 #include "app/studies/spread_set_up.h"
+#include "app/studies/study_command.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"
