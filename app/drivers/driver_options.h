@@ -1,4 +1,5 @@
 // Which options belong to which driver: one that a driver does not have would be taken and do nothing.
+// And the options about tool changes.
 #pragma once
 
 #include "core/drivers/tool_change.h"
@@ -16,16 +17,7 @@ namespace millwright::app {
 /// Throws UsageError for an option that was given and that `driver` does not have.
 void expect_options_of_driver(const CLI::App& command, const std::string& driver);
 
-} // namespace millwright::app
-
-// The options --tool-change, --tool-sensor, --spin-up and --right-tool.
-
-namespace CLI {
-class App;
-}
-
-namespace millwright::app {
-
+/// The options --tool-change, --tool-sensor, --spin-up and --right-tool.
 struct ToolChangeChoice {
     std::string way;            ///< stop, probe or macro=FILE; empty: left to the controller
     std::vector<double> sensor; ///< X, Y, height for travelling, deepest Z, and perhaps the feed

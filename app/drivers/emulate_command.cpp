@@ -1,8 +1,7 @@
-#include "app/drivers/emulate_command.h"
-
 #include "app/command_line/command.h"
 #include "app/command_line/option_values.h"
 #include "app/command_line/record_choice.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/emulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
@@ -29,17 +28,11 @@
 #include <string>
 #include <string_view>
 
-namespace CLI {
-
-// `millwright emulate table`: the other end of a coordinate stream of records.
-
-class App;
-
-} // namespace CLI
-
 namespace millwright::app {
 
 namespace {
+
+// `millwright emulate table`: the other end of a coordinate stream of records.
 
 struct TableChoice {
     EmulationChoice wire;
@@ -80,8 +73,6 @@ int emulate_table(const TableChoice& choice) {
         });
 }
 
-} // namespace
-
 void add_emulate_table(CLI::App& group, Command& chosen) {
     const auto choice = std::make_shared<TableChoice>();
     CLI::App& command = *group.add_subcommand("table", "A table that accepts records");
@@ -97,8 +88,6 @@ void add_emulate_table(CLI::App& group, Command& chosen) {
     command.add_option("--double", choice->table.doubles, "Answer this record twice (0: none)");
     command.callback([&chosen, choice] { chosen = [choice] { return emulate_table(*choice); }; });
 }
-
-namespace {
 
 struct EmulatedGrbl {
     EmulationChoice wire;

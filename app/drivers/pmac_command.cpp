@@ -1,7 +1,6 @@
-#include "app/drivers/pmac_command.h"
-
 #include "app/command_line/arm_choice.h"
 #include "app/command_line/watched_work.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/pmac_connection.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"

@@ -1,5 +1,4 @@
-#include "app/drivers/ports_command.h"
-
+#include "app/drivers/driver_commands.h"
 #include "core/links/serial_link.h"
 
 #include <fmt/format.h>

@@ -1,11 +1,10 @@
-#include "app/drivers/send_command.h"
-
 #include "app/command_line/arm_choice.h"
 #include "app/command_line/command.h"
 #include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/watched_work.h"
 #include "app/drivers/connected_controller.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/driver_options.h"
 #include "app/drivers/job_series.h"
 #include "app/drivers/planned_machine.h"
