@@ -1,9 +1,8 @@
-#include "app/plots/picture_trace.h"
-
 #include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/carving.h"
 #include "app/plots/picture_choice.h"
+#include "app/plots/picture_command.h"
 #include "app/plots/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
@@ -25,20 +24,7 @@
 #include <string_view>
 #include <vector>
 
-namespace CLI {
-
-// Pictures whose dark areas are traced, on the command line.
-
-class App;
-
-} // namespace CLI
-
 namespace millwright::app {
-
-/// Outlines of what is dark. Throws Error where there are none, with what would help.
-[[nodiscard]] std::vector<plot::TracedPath>
-traced_outlines(const SizedPicture& sized, const PictureChoice& choice, const plot::TraceSettings& tracing);
-
 namespace {
 
 using plot::TurnPolicy;
@@ -75,8 +61,6 @@ refuse_empty(const plot::Picture& picture, const PictureChoice& choice, const pl
                                          .plain = "leave out --invert to trace what is dark"})));
 }
 
-} // namespace
-
 /// Adds --threshold, --speckle, --corner, --tolerance and --turns to `command`.
 void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
     command
@@ -101,6 +85,7 @@ void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
         ->default_str("minority");
 }
 
+/// Outlines of what is dark. Throws Error where there are none, with what would help.
 std::vector<plot::TracedPath>
 traced_outlines(const SizedPicture& sized, const PictureChoice& choice, const plot::TraceSettings& tracing) {
     std::vector<plot::TracedPath> paths = plot::trace(sized.picture, tracing);
@@ -109,8 +94,6 @@ traced_outlines(const SizedPicture& sized, const PictureChoice& choice, const pl
     }
     return paths;
 }
-
-namespace {
 
 struct PictureTraceOptions {
     PictureChoice picture;

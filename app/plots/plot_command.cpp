@@ -4,7 +4,6 @@
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/carving.h"
-#include "app/plots/plot_play.h"
 #include "app/plots/plot_points.h"
 #include "app/plots/plot_program.h"
 #include "app/plots/stroke_cutting.h"

@@ -1,5 +1,3 @@
-#include "app/plots/plot_play.h"
-
 #include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/record_choice.h"
@@ -7,6 +5,7 @@
 #include "app/drivers/connected_controller.h"
 #include "app/drivers/job_series.h"
 #include "app/plots/cutting.h"
+#include "app/plots/plot_command.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
