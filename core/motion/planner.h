@@ -1,6 +1,6 @@
 // The look-ahead planner: as fast as the program and the axes allow, ending at rest. Speeds along the whole
 // path by one pass backward (what can still be braked) and one forward (what can be reached); then a filter
-// in time limits the jerk (timing.h). Formulas and proofs: docs/reference/motion.md.
+// in time limits the jerk (trajectory.h). Formulas and proofs: docs/reference/motion.md.
 //
 // Corners: in exact path mode the path is followed exactly, and the velocity of an axis changes in a corner
 // by a step. In continuous mode corners are rounded within a tolerance, and no axis exceeds any limit. Apart

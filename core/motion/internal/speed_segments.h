@@ -4,7 +4,7 @@
 
 #include "core/motion/override.h"
 #include "core/motion/path.h"
-#include "core/motion/timing.h"
+#include "core/motion/trajectory.h"
 
 #include <cstddef>
 
@@ -42,7 +42,7 @@ settled(const Path& path, const std::vector<SpeedSegment>& speed_segments, doubl
                                                  const std::vector<double>& allowed,
                                                  double speed);
 
-// Phases of constant acceleration (timing.h), put one after another.
+// Phases of constant acceleration (trajectory.h), put one after another.
 
 class PhaseList {
 public:
