@@ -6,7 +6,6 @@
 #include "core/cordic_machine/internal/cordic_code.h"
 #include "core/cordic_machine/internal/cordic_path.h"
 #include "core/gcode/canon_frame.h"
-#include "core/gcode/chords.h"
 #include "core/gcode_programs/cut_program.h"
 #include "core/gcode_programs/placement.h"
 #include "core/gcode_programs/programmed_feed.h"

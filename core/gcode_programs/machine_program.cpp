@@ -3,7 +3,6 @@
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/canon_frame.h"
-#include "core/gcode/chords.h"
 #include "core/gcode/program_text.h"
 #include "core/gcode_programs/internal/unsupported_features.h"
 #include "core/gcode_programs/placement.h"
