@@ -10,7 +10,8 @@
 #include "core/plan/internal/posted_plot.h"
 #include "core/plan/internal/program_reading.h"
 #include "core/plan/plot_time.h"
-#include "core/plot/closing.h"
+#include "core/plot/cut_path.h"
+#include "core/plot/linking.h"
 #include "core/plot/ordering.h"
 #include "core/plot/path_file.h"
 #include "core/plot/picture/engraving.h"
@@ -21,7 +22,6 @@
 #include "core/plot/plot_program.h"
 #include "core/plot/point_file.h"
 #include "core/plot/stroke_plan.h"
-#include "core/plot/tab_width.h"
 #include "core/project/assets.h"
 #include "core/project/gcode_file.h"
 

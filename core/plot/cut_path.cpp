@@ -12,6 +12,14 @@
 
 namespace millwright::plot {
 
+std::vector<Level> with_tab_widths(std::vector<Level> levels, double tool_diameter) {
+    expects(tool_diameter >= 0.0, "a tool has a width");
+    for (Level& level : levels) {
+        level.tabs.width += level.tabs.count > 0 ? level.tool_diameter.value_or(tool_diameter) : 0.0;
+    }
+    return levels;
+}
+
 void expect_not_too_long(std::size_t points) {
     if (points > most_path_points) {
         throw Error(fmt::format("the path has more than {} million points", most_path_points / 1'000'000),

@@ -95,4 +95,10 @@ void expect_within_plate(const CutPath& path, double thickness);
 /// Throws Error naming the setting that is out of its range.
 [[nodiscard]] CutPath cut_path(const Strokes& strokes, const CutSettings& settings);
 
+// People say how wide a bridge is that stands; the tool leaves it narrower by its own width.
+
+/// The levels with tabs that are wider on the way of the tool's middle by their own diameter, else by
+/// `tool_diameter` (mm, >= 0), so that those of the given widths stand. Without tabs as they are.
+[[nodiscard]] std::vector<Level> with_tab_widths(std::vector<Level> levels, double tool_diameter);
+
 } // namespace millwright::plot

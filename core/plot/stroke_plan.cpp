@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/text.h"
-#include "core/plot/closing.h"
 #include "core/plot/compensation.h"
 #include "core/plot/linking.h"
 #include "core/plot/ordering.h"

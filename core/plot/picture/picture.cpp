@@ -1,10 +1,12 @@
 #include "core/plot/picture/picture.h"
 
+#include "core/base/error.h"
 #include "core/base/file_snapshot.h"
 #include "core/plot/picture/internal/checks.h"
 #include "core/plot/picture/internal/row_sink.h"
 
 #include <fmt/format.h>
+#include <png.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +16,7 @@
 #include <utility>
 
 namespace millwright::plot {
+
 namespace {
 
 // How a JPEG or PNG picture was held by the camera that took it: Exif 2.3, tag 0x0112; of PNG in the chunk
@@ -314,6 +317,25 @@ double pixel_pitch(const PictureSize& size, const Picture& picture) {
         return picture.file_pixels * *size.pixel;
     }
     return picture.pixels_per_mm ? 1.0 / *picture.pixels_per_mm : picture.file_pixels * thesis_pixel;
+}
+
+std::string png_bytes(const GrayImage& image) {
+    expects(image.width > 0 && image.height > 0 &&
+                image.pixels.size() ==
+                    static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+            "an image has as many pixels as its size says");
+    png_image head = {};
+    head.version = PNG_IMAGE_VERSION;
+    head.width = static_cast<png_uint_32>(image.width);
+    head.height = static_cast<png_uint_32>(image.height);
+    head.format = PNG_FORMAT_GRAY;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(head);
+    std::string bytes(size, '\0');
+    const int done =
+        png_image_write_to_memory(&head, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr);
+    expects(done != 0, "a picture in memory becomes a PNG");
+    bytes.resize(size);
+    return bytes;
 }
 
 } // namespace millwright::plot

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -118,5 +119,20 @@ struct PictureSize {
 /// Width of a pixel of `picture`, mm; one that is the mean of several of its file is as wide as they are.
 /// Throws Error for a size that is not above 0 and finite.
 [[nodiscard]] double pixel_pitch(const PictureSize& size, const Picture& picture);
+
+// Gray pictures as PNG files: what previews are saved as.
+
+/// Rows from the top, each from the left.
+struct GrayImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> pixels; ///< 0 black, 255 white
+
+    friend bool operator==(const GrayImage&, const GrayImage&) = default;
+};
+
+/// The bytes of a PNG of 8 bits per pixel. Throws Defect unless there are as many pixels as the size says, at
+/// least one.
+[[nodiscard]] std::string png_bytes(const GrayImage& image);
 
 } // namespace millwright::plot

@@ -2,7 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/plot/carving/internal/segment_tree.h"
-#include "core/plot/closing.h"
+#include "core/plot/linking.h"
 
 #include <fmt/format.h>
 
