@@ -8,7 +8,7 @@
 #include "core/base/files.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
-#include "core/grid/error_weight.h"
+#include "core/grid/weight.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/setting_tables.h"

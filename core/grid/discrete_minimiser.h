@@ -5,7 +5,7 @@
 
 #include "core/grid/corner_functionals.h"
 #include "core/grid/descent.h"
-#include "core/grid/elliptic_solver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <cstddef>
 #include <functional>

@@ -3,7 +3,7 @@
 // sweeps and a coarse level a few; so the work is proportional to the number of nodes.
 #pragma once
 
-#include "core/grid/elliptic_solver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <cstddef>
 #include <memory>

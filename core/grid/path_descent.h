@@ -5,7 +5,7 @@
 #include "core/base/progress.h"
 #include "core/grid/descent.h"
 #include "core/grid/error_model.h"
-#include "core/grid/move_cost.h"
+#include "core/grid/track_path.h"
 
 #include <limits>
 #include <vector>

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "core/grid/grid_optimiser.h"
-#include "core/grid/move_cost.h"
 #include "core/grid/quality_guard.h"
 #include "core/grid/track.h"
 #include "core/grid/track_path.h"

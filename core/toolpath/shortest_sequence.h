@@ -7,7 +7,7 @@
 
 #include "core/base/progress.h"
 #include "core/geometry/parametric_surface.h"
-#include "core/grid/move_cost.h"
+#include "core/grid/track_path.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/sequencing.h"
 #include "core/toolpath/toolpath.h"

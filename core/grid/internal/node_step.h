@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/grid/elliptic_equations.h"
-#include "core/grid/elliptic_solver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <array>
 
