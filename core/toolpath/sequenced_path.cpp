@@ -4,7 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/base/units.h"
 #include "core/kinematics/inverse.h"
-#include "core/toolpath/internal/path_point_text.h"
+#include "core/toolpath/sequencing.h"
 #include "core/toolpath/shortest_sequence.h"
 #include "core/toolpath/tool_poses.h"
 

@@ -7,7 +7,7 @@
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/internal/chord_curve.h"
 #include "core/toolpath/internal/move_error.h"
-#include "core/toolpath/internal/path_point_text.h"
+#include "core/toolpath/sequencing.h"
 #include "core/toolpath/tool_poses.h"
 
 #include <fmt/format.h>
