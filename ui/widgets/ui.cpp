@@ -5,7 +5,6 @@
 #include "ui/widgets/internal/edit.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
-#include "ui/widgets/internal/wrap.h"
 
 #include <algorithm>
 #include <cmath>

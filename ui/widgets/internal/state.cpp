@@ -1,4 +1,4 @@
-#include "ui/widgets/internal/text_steps.h"
+#include "ui/widgets/internal/state.h"
 
 #include <algorithm>
 
