@@ -3,8 +3,8 @@
 
 #include "ui/render/context.h"
 #include "ui/render/gamepad.h"
+#include "ui/render/input_state.h"
 #include "ui/render/pixel_size.h"
-#include "ui/render/typing.h"
 
 #include <filesystem>
 #include <functional>
