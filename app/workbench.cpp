@@ -1,6 +1,6 @@
 #include "app/workbench.h"
 
-#include "app/command_line/interrupt.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/error.h"
 #include "core/project/assets.h"
 #include "core/project/recent_files.h"

@@ -1,7 +1,7 @@
 #include "app/workbench_command.h"
 
+#include "app/command_line/option_values.h"
 #include "app/command_line/suggestion.h"
-#include "app/command_line/usage_error.h"
 #include "app/workbench.h"
 #include "core/base/error.h"
 

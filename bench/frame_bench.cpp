@@ -8,9 +8,9 @@
 #include "core/project/project_file.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
-#include "ui/render/view_target.h"
 #include "ui/viewport/picture.h"
 #include "ui/viewport/scene_view.h"
 

@@ -2,7 +2,7 @@
 // its planner is meanwhile. 15 blocks are full; a planner that runs dry brakes.
 #include "core/base/error.h"
 #include "core/drivers/grbl/grbl_driver.h"
-#include "core/emulators/grbl/grbl_server.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 #include "core/jobs/dispatcher.h"
 #include "core/jobs/job.h"
 #include "core/jobs/job_log.h"

@@ -2,7 +2,7 @@
 // same run (processor time of both, where potrace is installed).
 #include "bench/processor_time.h"
 #include "core/base/files.h"
-#include "core/plot/picture/png_writer.h"
+#include "core/plot/picture/picture.h"
 #include "core/plot/picture/trace.h"
 
 #include <benchmark/benchmark.h>

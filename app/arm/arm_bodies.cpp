@@ -1,8 +1,8 @@
-#include "app/arm/arm_bodies.h"
+#include "core/arm/arm_bodies.h"
 
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_file.h"
-#include "core/arm/motoman_solids.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 

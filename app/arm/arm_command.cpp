@@ -1,12 +1,5 @@
 #include "app/arm/arm_command.h"
 
-#include "app/arm/arm_bodies.h"
-#include "app/arm/arm_drives.h"
-#include "app/arm/arm_motor.h"
-#include "app/arm/arm_pose.h"
-#include "app/arm/arm_reach.h"
-#include "app/arm/arm_service.h"
-#include "app/arm/arm_stream.h"
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_motion_file.h"
 #include "core/arm/arm_simulation.h"

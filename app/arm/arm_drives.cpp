@@ -1,5 +1,4 @@
-#include "app/arm/arm_drives.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_drive_readings.h"
 #include "core/arm/arm_zone.h"

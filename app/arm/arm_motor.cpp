@@ -1,5 +1,4 @@
-#include "app/arm/arm_motor.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "app/drivers/pmac_connection.h"
 #include "core/base/error.h"

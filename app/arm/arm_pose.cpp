@@ -1,7 +1,6 @@
-#include "app/arm/arm_pose.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_inverse.h"
 #include "core/arm/arm_solver.h"
@@ -9,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
 #include "core/kinematics/tool_rotation.h"
 
 #include <CLI/Config.hpp>

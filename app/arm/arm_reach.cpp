@@ -1,9 +1,8 @@
-#include "app/arm/arm_reach.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/diagnostics.h"
+#include "app/command_line/command.h"
 #include "app/command_line/watched_work.h"
-#include "core/arm/arm_reach.h"
+#include "core/arm/arm_path.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/text.h"

@@ -1,5 +1,4 @@
-#include "app/arm/arm_service.h"
-
+#include "app/arm/arm_command.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"

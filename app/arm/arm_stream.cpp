@@ -1,8 +1,6 @@
-#include "app/arm/arm_stream.h"
-
+#include "app/arm/arm_command.h"
 #include "app/command_line/arm_choice.h"
 #include "core/arm/arm_motion_file.h"
-#include "core/arm/arm_motion_ways.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,14 +1,22 @@
 // What the commands of the command line have in common: main finds out which one is meant, then runs it.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/plan/plan.h"
 #include "core/project/project.h"
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace millwright::app {
+
+// What is wrong with an input, or done otherwise than it says, on the terminal: the first of it, and how much
+// there is.
+
+void print_first(const std::vector<Diagnostic>& found);
+void print_warnings(const std::vector<Diagnostic>& warnings);
 
 /// Runs to the exit code. Throws Error or Cancelled.
 using Command = std::function<int()>;

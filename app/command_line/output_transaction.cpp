@@ -1,7 +1,6 @@
 #include "app/command_line/output_transaction.h"
 
 #include "app/command_line/kept_outputs.h"
-#include "app/command_line/written_files.h"
 #include "core/base/draft.h"
 #include "core/base/error.h"
 #include "core/base/files.h"

@@ -1,8 +1,6 @@
-#include "app/cordic/cordic_accuracy.h"
-
-#include "app/command_line/interrupt.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/error.h"
 #include "core/cordic_study/accuracy.h"

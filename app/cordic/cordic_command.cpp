@@ -1,13 +1,7 @@
 #include "app/cordic/cordic_command.h"
 
 #include "app/command_line/output_transaction.h"
-#include "app/cordic/cordic_accuracy.h"
-#include "app/cordic/cordic_compare.h"
 #include "app/cordic/cordic_pass.h"
-#include "app/cordic/cordic_programs.h"
-#include "app/cordic/cordic_rtl_processor.h"
-#include "app/cordic/cordic_run.h"
-#include "app/cordic/cordic_sew.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/error.h"
 #include "core/base/files.h"

@@ -1,5 +1,4 @@
-#include "app/cordic/cordic_compare.h"
-
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/error.h"
 #include "core/base/files.h"

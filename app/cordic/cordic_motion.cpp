@@ -4,7 +4,7 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/cordic_machine/cordic_motion.h"
-#include "core/motion/plan_within.h"
+#include "core/motion/planner.h"
 #include "core/motion/step_pulses.h"
 
 #include <CLI/Config.hpp>

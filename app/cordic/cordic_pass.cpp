@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/text.h"
-#include "core/cordic_study/unturned_rotation.h"
+#include "core/cordic_study/single_pass.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

@@ -1,5 +1,4 @@
-#include "app/cordic/cordic_programs.h"
-
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,6 +1,5 @@
-#include "app/cordic/cordic_rtl_processor.h"
-
 #include "app/command_line/output_transaction.h"
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/files.h"
 #include "core/cordic_rtl/processor_rtl.h"

@@ -1,6 +1,5 @@
-#include "app/cordic/cordic_run.h"
-
 #include "app/command_line/json_members.h"
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_motion.h"
 #include "app/cordic/cordic_plc.h"
 #include "app/cordic/cordic_remarks.h"
@@ -9,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic/vcd.h"
 

@@ -1,5 +1,4 @@
-#include "app/cordic/cordic_sew.h"
-
+#include "app/cordic/cordic_command.h"
 #include "app/cordic/cordic_source.h"
 #include "core/base/counted.h"
 #include "core/cordic_control/stitch_timing.h"

@@ -1,9 +1,9 @@
 // A job on a controller that plans for itself, on the command line.
 #pragma once
 
-#include "app/command_line/interrupt.h"
-#include "app/drivers/job_keys.h"
-#include "app/drivers/tool_change_options.h"
+#include "app/command_line/watched_work.h"
+#include "app/drivers/driver_options.h"
+#include "app/drivers/job_terminal.h"
 #include "core/base/clock.h"
 #include "core/base/progress.h"
 #include "core/drivers/driver.h"

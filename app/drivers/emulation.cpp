@@ -1,13 +1,13 @@
 #include "app/drivers/emulation.h"
 
-#include "app/command_line/interrupt.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>

@@ -1,13 +1,13 @@
 #include "app/drivers/job_series.h"
 
-#include "app/command_line/finite_number.h"
 #include "app/command_line/given_options.h"
-#include "app/command_line/prompt.h"
-#include "app/command_line/usage_error.h"
-#include "app/drivers/queued_job_status.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/terminal.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/jobs/job_queue.h"
+#include "core/jobs/recovery.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -22,10 +22,56 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace millwright::app {
+
+// What a person should know of a queued job that did not come to its end, before it is decided what becomes
+// of it.
+
+namespace {
+
+using jobs::JobStory;
+using jobs::QueuedJob;
+
+/// Nothing if there is none, or nothing is left of its job.
+std::optional<JobStory> log_of(const QueuedJob& job, const std::filesystem::path& folder) {
+    std::vector<JobStory> all = jobs::read_job_folder(folder).jobs; // newest first
+    const auto found = std::ranges::find_if(all, [&job](const JobStory& story) {
+        return job.log_file.empty()
+                   ? story.start.project == job.project && story.start.program_hash == job.hash
+                   : story.log_file == job.log_file;
+    });
+    const bool open = found != all.end() && found->executed_blocks < found->start.blocks;
+    return open ? std::optional(std::move(*found)) : std::nullopt;
+}
+
+std::string how_it_goes_on(const JobStory& story) {
+    const jobs::ResumePoint way = jobs::resume_point(story);
+    return way.why_the_beginning.empty()
+               ? fmt::format(
+                     "Resumes at line {}{}.", way.line, way.needs_clearance ? ", with --clearance Z" : "")
+               : with_full_stop("It can only restart from the beginning: " + way.why_the_beginning);
+}
+
+} // namespace
+
+/// What the queue says; with its log in `folder`, if there is one, also what that reports but is not in the
+/// queue if this program was killed: what was executed, and where the job can go on.
+std::string queued_job_status(const QueuedJob& job, const std::filesystem::path& folder) {
+    const std::optional<JobStory> logged = log_of(job, folder);
+    if (!logged) {
+        return job.sentence;
+    }
+    const bool entered = !job.log_file.empty();
+    return fmt::format("{}\nLog: {}\n{}",
+                       entered ? job.sentence : logged->sentence,
+                       logged->log_file.string(),
+                       how_it_goes_on(*logged));
+}
 
 namespace {
 

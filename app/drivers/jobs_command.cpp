@@ -1,9 +1,8 @@
-#include "app/drivers/jobs_command.h"
-
 #include "app/command_line/given_options.h"
+#include "app/drivers/driver_commands.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
-#include "core/jobs/resume_point.h"
+#include "core/jobs/recovery.h"
 #include "core/project/recent_files.h"
 
 #include <CLI/Config.hpp>

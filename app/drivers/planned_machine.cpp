@@ -1,10 +1,8 @@
 #include "app/drivers/planned_machine.h"
 
-#include "app/command_line/diagnostics.h"
-#include "app/command_line/finite_number.h"
-#include "app/command_line/usage_error.h"
-#include "app/drivers/job_keys.h"
-#include "app/drivers/job_printer.h"
+#include "app/command_line/command.h"
+#include "app/command_line/option_values.h"
+#include "app/drivers/job_terminal.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"

@@ -1,9 +1,7 @@
-#include "app/drivers/pmac_command.h"
-
 #include "app/command_line/arm_choice.h"
-#include "app/command_line/interrupt.h"
+#include "app/command_line/watched_work.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/pmac_connection.h"
-#include "app/drivers/pmac_protections.h"
 #include "core/base/clock.h"
 #include "core/base/error.h"
 #include "core/base/files.h"

@@ -1,13 +1,45 @@
 #include "app/drivers/pmac_connection.h"
 
 #include "app/command_line/arm_choice.h"
-#include "app/drivers/pmac_protections.h"
 #include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "core/pmac/driver/arm_axes.h"
 
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <utility>
 
 namespace millwright::app {
+
+void warn_of_protections(const pmac::PmacDriver& driver, Clock& clock) {
+    constexpr double glance = 0.005, patience = 2.0; // s
+    auto off = driver.protections_off();
+    for (double waited = 0.0; !off && waited < patience; waited += glance) {
+        clock.wait(glance);
+        off = driver.protections_off();
+    }
+    if (off) {
+        for (const std::string& sentence : *off) {
+            fmt::print(stderr, "warning: protection off: {}\n", sentence);
+        }
+    }
+}
+
+bool part_from(pmac::PmacDriver& driver) {
+    const bool had_power = driver.any_power();
+    driver.close();
+    if (const std::string farewell = driver.farewell(); !farewell.empty()) {
+        fmt::print(stderr, "millwright: {}\n", with_sentence(capitalised(farewell), "Inspect the machine."));
+        return false;
+    }
+    if (driver.any_power()) {
+        fmt::print(stderr, "The motors are enabled and no longer supervised.\n");
+    } else if (had_power) {
+        fmt::print(stderr, "The motors are disabled; --keep-power would leave them enabled.\n");
+    }
+    return true;
+}
 
 namespace {
 

@@ -1,7 +1,7 @@
 // One PMAC on the command line: a connection, and questions to it that Ctrl+C ends.
 #pragma once
 
-#include "app/command_line/interrupt.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/clock.h"
 #include "core/pmac/driver/pmac_driver.h"
 #include "core/pmac_service/card_talk.h"
@@ -10,6 +10,15 @@
 #include <string>
 
 namespace millwright::app {
+
+// What the command line reports to a person of a PMAC's protections and of the power of its motors.
+
+/// Which protections the card has off, once it has reported that.
+void warn_of_protections(const pmac::PmacDriver& driver, Clock& clock);
+
+/// Drops the link, and tells what became of the motors' power. False if the card did not confirm it: that is
+/// told, too.
+bool part_from(pmac::PmacDriver& driver);
 
 /// Connected, with the joint limits of `arm` (a name or a file) and with axis 5 where the card has a motor 5,
 /// as a person wants it: nothing moves for long without us, so a slow line may be slow. Throws Error if no

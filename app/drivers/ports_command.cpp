@@ -1,6 +1,5 @@
-#include "app/drivers/ports_command.h"
-
-#include "core/links/serial_ports.h"
+#include "app/drivers/driver_commands.h"
+#include "core/links/serial_link.h"
 
 #include <fmt/format.h>
 

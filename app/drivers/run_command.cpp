@@ -1,9 +1,7 @@
-#include "app/drivers/run_command.h"
-
-#include "app/command_line/interrupt.h"
 #include "app/command_line/posting.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
 #include "app/drivers/connected_controller.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/driver_options.h"
 #include "app/drivers/job_series.h"
 #include "app/drivers/planned_machine.h"

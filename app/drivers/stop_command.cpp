@@ -1,6 +1,5 @@
-#include "app/drivers/stop_command.h"
-
-#include "app/command_line/interrupt.h"
+#include "app/command_line/watched_work.h"
+#include "app/drivers/driver_commands.h"
 #include "app/drivers/job_series.h"
 #include "core/base/error.h"
 #include "core/drivers/driver.h"

@@ -1,6 +1,6 @@
 #include "app/gcode/gcode_command.h"
 
-#include "app/command_line/diagnostics.h"
+#include "app/command_line/command.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/posting.h"
 #include "app/gcode/gcode_options.h"
@@ -12,7 +12,6 @@
 #include "core/gcode/canon_printer.h"
 #include "core/gcode/interpreter.h"
 #include "core/gcode/language.h"
-#include "core/gcode/line_index.h"
 #include "core/gcode/program_text.h"
 #include "core/gcode/tool_comments.h"
 #include "core/gcode_programs/klartext.h"

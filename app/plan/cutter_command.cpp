@@ -1,10 +1,9 @@
 #include "app/plan/cutter_command.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/interrupt.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/output_transaction.h"
 #include "app/command_line/posting.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
 #include "app/plan/gouges.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,7 +1,6 @@
 #include "app/plan/import_command.h"
 
-#include "app/command_line/option_choices.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,6 +1,6 @@
 #include "app/plan/join_command.h"
 
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/project/joined_surface.h"

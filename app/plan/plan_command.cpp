@@ -1,8 +1,8 @@
 #include "app/plan/plan_command.h"
 
-#include "app/command_line/interrupt.h"
 #include "app/command_line/output_transaction.h"
 #include "app/command_line/posting.h"
+#include "app/command_line/watched_work.h"
 #include "app/plan/gouges.h"
 #include "core/base/counted.h"
 #include "core/base/text.h"

@@ -1,7 +1,7 @@
 #include "app/plan/render_command.h"
 
-#include "app/command_line/interrupt.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
+#include "app/command_line/watched_work.h"
 #include "core/base/error.h"
 #include "core/kinematics/machine_solids.h"
 #include "core/project/assets.h"

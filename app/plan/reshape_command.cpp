@@ -1,6 +1,6 @@
 #include "app/plan/reshape_command.h"
 
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/base/error.h"
 #include "core/project/project_file.h"
 #include "core/project/reshaped_surface.h"

@@ -1,7 +1,6 @@
 #include "app/plots/carving.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/text_validator.h"
+#include "app/command_line/option_values.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"

@@ -1,6 +1,6 @@
 #include "app/plots/cutting.h"
 
-#include "app/command_line/finite_number.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"

@@ -1,7 +1,6 @@
 #include "app/plots/picture_choice.h"
 
-#include "app/command_line/option_choices.h"
-#include "app/command_line/text_validator.h"
+#include "app/command_line/option_values.h"
 #include "core/base/error.h"
 
 #include <CLI/App.hpp>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/plot/picture/picture.h"
-#include "core/plot/picture/picture_size.h"
 
 #include <cstdio>
 #include <functional>

@@ -1,10 +1,5 @@
 #include "app/plots/picture_command.h"
 
-#include "app/plots/picture_carve.h"
-#include "app/plots/picture_engrave.h"
-#include "app/plots/picture_relief.h"
-#include "app/plots/picture_trace.h"
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>

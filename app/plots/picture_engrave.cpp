@@ -1,9 +1,7 @@
-#include "app/plots/picture_engrave.h"
-
-#include "app/command_line/finite_number.h"
-#include "app/command_line/text_validator.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/picture_choice.h"
+#include "app/plots/picture_command.h"
 #include "app/plots/stroke_cutting.h"
 #include "core/base/error.h"
 #include "core/base/units.h"

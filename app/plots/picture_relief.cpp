@@ -1,10 +1,8 @@
-#include "app/plots/picture_relief.h"
-
-#include "app/command_line/finite_number.h"
-#include "app/command_line/text_validator.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
 #include "app/plots/cutting.h"
 #include "app/plots/picture_choice.h"
+#include "app/plots/picture_command.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/plot/picture/relief_plan.h"

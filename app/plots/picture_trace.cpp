@@ -1,10 +1,9 @@
-#include "app/plots/picture_trace.h"
-
-#include "app/command_line/finite_number.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/watched_work.h"
+#include "app/plots/carving.h"
 #include "app/plots/picture_choice.h"
+#include "app/plots/picture_command.h"
 #include "app/plots/stroke_cutting.h"
-#include "app/plots/traced_picture.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/plot/picture/trace.h"
@@ -17,15 +16,84 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace millwright::app {
-
 namespace {
+
+using plot::TurnPolicy;
+
+const std::map<std::string, TurnPolicy> turn_policies = {{"black", TurnPolicy::connect_black},
+                                                         {"white", TurnPolicy::connect_white},
+                                                         {"left", TurnPolicy::left},
+                                                         {"right", TurnPolicy::right},
+                                                         {"minority", TurnPolicy::minority},
+                                                         {"majority", TurnPolicy::majority}};
+
+[[noreturn]] void
+refuse_empty(const plot::Picture& picture, const PictureChoice& choice, const plot::TraceSettings& tracing) {
+    plot::TraceSettings with_specks = tracing;
+    with_specks.speckle = 0;
+    if (!plot::trace(picture, with_specks).empty()) {
+        throw Error(
+            fmt::format("no dark area has more than {} {}, and areas up to this size are removed as specks",
+                        tracing.speckle,
+                        tracing.speckle == 1 ? "pixel" : "pixels"),
+            choice.file,
+            "use --speckle 0 to trace them");
+    }
+    const bool helps = inverting_helps(
+        choice, [&](const SizedPicture& other) { return !plot::trace(other.picture, tracing).empty(); });
+    const auto [darkest, brightest] = std::ranges::minmax(picture.gray);
+    throw Error("nothing in it is dark enough to trace",
+                choice.file,
+                fmt::format("{}; {}",
+                            darkest == brightest ? "all of it is equally bright" : "adjust --threshold",
+                            invert_hint(choice,
+                                        helps,
+                                        {.invert = "use --invert to trace what is bright",
+                                         .plain = "leave out --invert to trace what is dark"})));
+}
+
+/// Adds --threshold, --speckle, --corner, --tolerance and --turns to `command`.
+void add_tracing_options(CLI::App& command, plot::TraceSettings& tracing) {
+    command
+        .add_option(
+            "--threshold", tracing.threshold, "Brightness threshold, 0 to 1: pixels up to it are dark")
+        ->capture_default_str();
+    command.add_option("--speckle", tracing.speckle, "Remove specks of up to this many pixels")
+        ->check(not_below_zero())
+        ->capture_default_str();
+    command
+        .add_option("--corner", tracing.corner, "Corner smoothing: 0 keeps all corners, 1.334 smooths all")
+        ->capture_default_str();
+    command.add_option("--tolerance", tracing.tolerance, "Tolerance for joining curves, pixels")
+        ->check(not_below_zero())
+        ->capture_default_str();
+    command
+        .add_option("--turns",
+                    tracing.turns,
+                    "Turn policy where dark pixels touch at corners: black, white, left, right, ...")
+        ->transform(one_of(turn_policies))
+        ->type_name(choice_list(turn_policies))
+        ->default_str("minority");
+}
+
+/// Outlines of what is dark. Throws Error where there are none, with what would help.
+std::vector<plot::TracedPath>
+traced_outlines(const SizedPicture& sized, const PictureChoice& choice, const plot::TraceSettings& tracing) {
+    std::vector<plot::TracedPath> paths = plot::trace(sized.picture, tracing);
+    if (paths.empty()) {
+        refuse_empty(sized.picture, choice, tracing);
+    }
+    return paths;
+}
 
 struct PictureTraceOptions {
     PictureChoice picture;
@@ -111,6 +179,36 @@ void add_picture_trace(CLI::App& group, Command& chosen) {
     const std::vector<CLI::Option*> all = command.get_options();
     options->of_programs.assign(all.begin() + static_cast<std::ptrdiff_t>(of_both), all.end());
     command.callback([&chosen, options] { chosen = [options] { return trace(*options); }; });
+}
+
+namespace {
+
+struct PictureCarveOptions {
+    PictureChoice picture;
+    plot::TraceSettings tracing;
+    CarvingOptions carving;
+};
+
+int carve(const PictureCarveOptions& options) {
+    WatchedWork work;
+    const SizedPicture sized =
+        read_chosen(options.picture, work.progress().part(0.0, 0.2), options.carving.json ? stderr : stdout);
+    work.finish();
+    const auto paths = traced_outlines(sized, options.picture, options.tracing);
+    const double chords = plot::carving_chords(options.carving.settings.tolerance);
+    carve_strokes(plot::strokes_of(paths, sized.pitch, chords), options.picture.file, options.carving, work);
+    return 0;
+}
+
+} // namespace
+
+void add_picture_carve(CLI::App& group, Command& chosen) {
+    const auto options = std::make_shared<PictureCarveOptions>();
+    CLI::App& command = *group.add_subcommand("carve", "V-carve the dark areas");
+    add_picture_options(command, options->picture);
+    add_tracing_options(command, options->tracing);
+    add_carving_options(command, options->carving);
+    command.callback([&chosen, options] { chosen = [options] { return carve(*options); }; });
 }
 
 } // namespace millwright::app

@@ -1,4 +1,4 @@
-// millwright plot decode | info | toolpath: see docs/reference/cli.md.
+// millwright plot decode | info | toolpath | play: see docs/reference/cli.md.
 #pragma once
 
 #include "app/command_line/command.h"
@@ -9,5 +9,8 @@ namespace millwright::app {
 
 /// Adds the command; where it is meant, `chosen` becomes what is to be done.
 void add_plot_command(CLI::App& app, Command& chosen);
+
+/// Adds `play` to the group `plot`: sends a point file to a table, one point a period.
+void add_plot_play(CLI::App& group, Command& chosen);
 
 } // namespace millwright::app

@@ -7,7 +7,6 @@
 #include "core/base/units.h"
 #include "core/plot/path_file.h"
 #include "core/plot/point_file.h"
-#include "core/plot/point_path.h"
 #include "core/plot/work_time.h"
 #include "core/project/plot_input.h"
 

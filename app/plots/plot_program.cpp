@@ -1,8 +1,7 @@
 #include "app/plots/plot_program.h"
 
-#include "app/command_line/finite_number.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/usage_error.h"
 #include "app/plots/other_than_plot.h"
 #include "app/plots/plot_points.h"
 #include "core/base/error.h"
@@ -10,8 +9,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/gcode/tool_comments.h"
-#include "core/plot/decode_path.h"
-#include "core/plot/decode_within.h"
+#include "core/plot/decode.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>

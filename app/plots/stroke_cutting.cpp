@@ -1,16 +1,14 @@
 #include "app/plots/stroke_cutting.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/option_choices.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/text_validator.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/plot/closing.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/level_text.h"
+#include "core/plot/linking.h"
 #include "core/plot/ordering.h"
-#include "core/plot/tab_width.h"
-#include "core/plot/unprocessed_strokes.h"
+#include "core/plot/stroke_plan.h"
 #include "core/plot/work_time.h"
 
 #include <CLI/App.hpp>

@@ -1,6 +1,6 @@
 #include "app/simulation/named_tool.h"
 
-#include "app/command_line/usage_error.h"
+#include "app/command_line/option_values.h"
 #include "core/base/error.h"
 #include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"

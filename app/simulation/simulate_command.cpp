@@ -1,10 +1,9 @@
 #include "app/simulation/simulate_command.h"
 
-#include "app/command_line/finite_number.h"
-#include "app/command_line/interrupt.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
 #include "app/simulation/simulated_collisions.h"
 #include "app/simulation/simulated_work.h"
 #include "app/simulation/simulation_report.h"

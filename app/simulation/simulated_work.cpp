@@ -1,8 +1,8 @@
 #include "app/simulation/simulated_work.h"
 
 #include "app/command_line/command.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/origin_choice.h"
-#include "app/command_line/usage_error.h"
 #include "app/gcode/gcode_options.h"
 #include "app/simulation/named_tool.h"
 #include "app/simulation/simulated_collisions.h"

@@ -1,8 +1,6 @@
-#include "app/studies/study_fewest.h"
-
-#include "app/command_line/interrupt.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/progress_printer.h"
+#include "app/command_line/watched_work.h"
+#include "app/studies/study_command.h"
 #include "core/base/counted.h"
 #include "core/base/text.h"
 #include "core/base/units.h"

@@ -1,9 +1,7 @@
-#include "app/studies/study_run_time.h"
-
-#include "app/command_line/interrupt.h"
+#include "app/command_line/option_values.h"
 #include "app/command_line/output_transaction.h"
-#include "app/command_line/progress_printer.h"
-#include "app/command_line/usage_error.h"
+#include "app/command_line/watched_work.h"
+#include "app/studies/study_command.h"
 #include "core/base/counted.h"
 #include "core/base/parallel.h"
 #include "core/base/text.h"

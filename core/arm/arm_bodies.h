@@ -4,6 +4,7 @@
 
 #include "core/arm/arm_actuators.h"
 #include "core/arm/arm_model.h"
+#include "core/geometry/glb.h"
 #include "core/geometry/solid.h"
 
 #include <cstdint>
@@ -40,5 +41,16 @@ struct ArmBodies {
                                               const std::optional<ArmActuators>& actuators,
                                               const std::vector<ArmPart>& parts,
                                               const JointPositions& positions);
+
+// The bodies of an arm of the Motoman L-3's kind, made from its lengths and linkages. What neither tells -
+// thicknesses, the foot, the gripper - is ours. Lengths mm.
+
+struct MotomanSolids {
+    std::vector<ArmPart> parts;               ///< what carries each, for the arm's file
+    std::vector<geometry::PlacedBody> bodies; ///< the same order; at rest the upper arm stands upright
+};
+
+/// Throws Error for an arm of another kind, or one so small that the bodies would not fit.
+[[nodiscard]] MotomanSolids motoman_solids(const ArmModel& arm, const ArmActuators& actuators);
 
 } // namespace millwright::arm

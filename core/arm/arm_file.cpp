@@ -5,7 +5,7 @@
 #include "core/base/file_format.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
-#include "core/kinematics/file_bounds.h"
+#include "core/kinematics/machine_file.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "core/arm/arm_simulation.h"
 
 #include "core/arm/arm_hold.h"
-#include "core/arm/arm_motion_ways.h"
-#include "core/arm/arm_reach.h"
+#include "core/arm/arm_motion_file.h"
+#include "core/arm/arm_path.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/text.h"

@@ -1,7 +1,7 @@
 #include "core/cordic/chord_end_model.h"
 
 #include "core/cordic/angles.h"
-#include "core/cordic/internal/space_line.h"
+#include "core/cordic/internal/arithmetic_unit.h"
 #include "core/cordic/interpolation.h"
 
 #include <type_traits>

@@ -3,7 +3,7 @@
 // roundings of the vector. A compiler that turns them beforehand knows them all.
 #pragma once
 
-#include "core/cordic/any_kernel.h"
+#include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
 
 #include <optional>

@@ -4,10 +4,12 @@
 
 #include "core/cordic/angles.h"
 #include "core/cordic/arithmetic.h"
+#include "core/cordic/number_format.h"
 #include "core/cordic/sequence.h"
 
 #include <array>
 #include <cstdint>
+#include <variant>
 
 namespace millwright::cordic {
 
@@ -163,5 +165,16 @@ private:
         1.0; ///< (1, 0) turned by every step in the same sense: the edge of what vectoring reaches
     double limit_y_ = 0.0;
 };
+
+// The iteration in a number format that is known only at run time.
+
+using AnyKernel =
+    std::variant<Kernel<FloatArithmetic<double>>, Kernel<FloatArithmetic<float>>, Kernel<FixedArithmetic>>;
+
+[[nodiscard]] inline AnyKernel
+any_kernel(const NumberFormat& format, const Sequence& sequence, SignOfZero zero) {
+    return with_arithmetic(
+        format, [&](const auto& arithmetic) { return AnyKernel(Kernel(arithmetic, sequence, zero)); });
+}
 
 } // namespace millwright::cordic

@@ -2,8 +2,8 @@
 // looked at, copied and compared between any two clocks.
 #pragma once
 
-#include "core/cordic/any_kernel.h"
 #include "core/cordic/interpolation.h"
+#include "core/cordic/kernel.h"
 #include "core/cordic/processor_state.h"
 
 #include <cstdint>

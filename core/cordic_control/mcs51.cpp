@@ -1,13 +1,13 @@
 #include "core/cordic_control/mcs51.h"
 
 #include "core/base/error.h"
-#include "core/cordic_control/internal/mcs51_registers.h"
 
 #include <bit>
 #include <cstddef>
 #include <utility>
 
 namespace millwright::cordic {
+
 namespace {
 
 constexpr std::size_t mcs51_memory = 0x10000;

@@ -1,6 +1,5 @@
 // Jumps, bits, external memory and the data pointer: the instructions of the columns 0 to 3.
 #include "core/base/error.h"
-#include "core/cordic_control/internal/mcs51_registers.h"
 #include "core/cordic_control/mcs51.h"
 
 #include <cstddef>

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -105,5 +106,22 @@ private:
     std::array<bool, plc_bit_count> bits_{};
     std::array<Timer, plc_bit_count> timers_{}; ///< those of T and C are used
 };
+
+// What happens to the inputs of a machine's logic from outside: doors, clamps, buttons, at their times.
+
+/// What happens to an input from outside.
+struct InputChange {
+    double seconds = 0.0;
+    PlcBit bit = 0;
+    bool value = false;
+};
+
+struct ReadInputs {
+    std::vector<InputChange> changes; ///< by ascending time
+    std::vector<Diagnostic> errors;   ///< with line and column
+};
+
+/// Lines of "SECONDS BIT 0|1"; a semicolon begins a comment.
+[[nodiscard]] ReadInputs read_inputs(std::string_view text, const std::filesystem::path& name);
 
 } // namespace millwright::cordic

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "core/cordic/processor.h"
-#include "core/cordic_control/input_changes.h"
 #include "core/cordic_control/plc.h"
 
 #include <array>

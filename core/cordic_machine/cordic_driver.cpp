@@ -6,7 +6,7 @@
 #include "core/cordic_machine/cordic_motion.h"
 #include "core/drivers/mdi_lines.h"
 #include "core/gcode/interpreter.h"
-#include "core/motion/plan_within.h"
+#include "core/motion/planner.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,6 @@
 
 #include "core/base/clock.h"
 #include "core/base/error.h"
-#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic_machine/cordic_program.h"
 #include "core/drivers/driver.h"

@@ -4,13 +4,11 @@
 #include "core/base/units.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic_machine/internal/cordic_code.h"
-#include "core/cordic_machine/internal/cordic_commands.h"
 #include "core/cordic_machine/internal/cordic_path.h"
 #include "core/gcode/canon_frame.h"
-#include "core/gcode/chords.h"
+#include "core/gcode_programs/cut_program.h"
 #include "core/gcode_programs/placement.h"
 #include "core/gcode_programs/programmed_feed.h"
-#include "core/gcode_programs/xyz_machine.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

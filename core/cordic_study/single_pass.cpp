@@ -3,6 +3,8 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/cordic/arithmetic.h"
+#include "core/cordic/kernel.h"
 #include "core/cordic/quadrant_fold.h"
 #include "core/cordic_study/internal/entered_numbers.h"
 
@@ -13,6 +15,7 @@
 #include <utility>
 
 namespace millwright::cordic {
+
 namespace {
 
 constexpr const char* room_for_a_pass =
@@ -205,6 +208,29 @@ SinglePass single_pass(const NumberFormat& format, const Sequence& sequence, con
         answer.words = internal::words_of_vector(arithmetic, format, v);
         return answer;
     });
+}
+
+std::optional<double>
+exceeded_range(const NumberFormat& format, const Sequence& sequence, const PassInput& input) {
+    if (input.mode != Mode::rotation) {
+        return std::nullopt;
+    }
+    return with_arithmetic(format, [&](const auto& arithmetic) -> std::optional<double> {
+        const Kernel kernel(arithmetic, sequence, input.zero);
+        if (kernel.reach_of_rotation(internal::entered(arithmetic, format, input.z)) == Reach::inside) {
+            return std::nullopt;
+        }
+        constexpr double steps_per_unit = 1e5;
+        return std::floor(kernel.rotation_range() * steps_per_unit) / steps_per_unit;
+    });
+}
+
+std::string unturned_text(const PassInput& input, double range) {
+    return fmt::format(
+        "z = {} rad is outside the convergence range, |z| <= {:.5f} rad: the vector is not turned by "
+        "all of it, and z is what is left",
+        input.z.nearest_double(),
+        range);
 }
 
 } // namespace millwright::cordic

@@ -9,6 +9,8 @@
 #include "core/cordic/sequence.h"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace millwright::cordic {
@@ -42,8 +44,19 @@ struct SinglePass {
 };
 
 /// Throws Error if a number does not fit the format, if the input is beyond the convergence range (the
-/// message has it; but see unturned_rotation.h), and for folding in another system than the circular one.
+/// message has it; but see exceeded_range), and for folding in another system than the circular one.
 [[nodiscard]] SinglePass
 single_pass(const NumberFormat& format, const Sequence& sequence, const PassInput& input);
+
+// A circular rotation takes any z, as the thesis's MATLAB function CORDIC-R does. Beyond the convergence
+// range the steps turn the vector by a part of z, and the rest is left.
+
+/// The largest |z| that the steps turn, rad and rounded down to 1e-5, where `input` is a rotation by more;
+/// nothing where it is not.
+[[nodiscard]] std::optional<double>
+exceeded_range(const NumberFormat& format, const Sequence& sequence, const PassInput& input);
+
+/// A sentence without full stop. `range`: what exceeded_range() gave.
+[[nodiscard]] std::string unturned_text(const PassInput& input, double range);
 
 } // namespace millwright::cordic

@@ -10,7 +10,7 @@
 #include "core/drivers/driver_status.h"
 #include "core/drivers/point_track.h"
 #include "core/drivers/tool_change.h"
-#include "core/gcode/dialect.h"
+#include "core/gcode/reader_settings.h"
 #include "core/motion/trajectory.h"
 #include "core/program/listing.h"
 #include "core/program/program.h"

@@ -2,8 +2,8 @@
 // path mode. They move nothing and switch nothing on.
 #pragma once
 
-#include "core/gcode/dialect.h"
 #include "core/gcode/modal_state.h"
+#include "core/gcode/reader_settings.h"
 
 #include <string>
 

@@ -4,12 +4,10 @@
 #include "core/base/text.h"
 #include "core/exchange/internal/cad_contents.h"
 #include "core/exchange/internal/cad_faces.h"
-#include "core/exchange/internal/cad_lost_faces.h"
 #include "core/exchange/internal/cad_reading.h"
 #include "core/exchange/internal/cad_text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/occt.h"
-#include "core/exchange/internal/progress_stream.h"
 #include "core/exchange/internal/step_units.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>

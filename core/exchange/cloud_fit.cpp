@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/exchange/internal/fit_deviation.h"
-#include "core/exchange/internal/fit_rounds.h"
 #include "core/exchange/internal/least_squares.h"
 #include "core/exchange/internal/visible_side.h"
 

@@ -5,7 +5,6 @@
 #include "core/base/text.h"
 #include "core/exchange/internal/file_kind.h"
 #include "core/exchange/internal/mesh_readers.h"
-#include "core/exchange/internal/polygon_soup.h"
 
 #include <algorithm>
 #include <array>

@@ -3,11 +3,8 @@
 #include "core/base/error.h"
 #include "core/exchange/cloud_fit.h"
 #include "core/exchange/internal/fit_deviation.h"
-#include "core/exchange/internal/fit_rounds.h"
-#include "core/exchange/internal/fit_target.h"
 #include "core/exchange/internal/harmonic_parametrization.h"
 #include "core/exchange/internal/least_squares.h"
-#include "core/exchange/internal/mesh_outlines.h"
 #include "core/exchange/internal/visible_side.h"
 #include "core/geometry/closest_point.h"
 

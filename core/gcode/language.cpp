@@ -1,7 +1,6 @@
 #include "core/gcode/language.h"
 
 #include "core/gcode/internal/cursor.h"
-#include "core/gcode/line_ends.h"
 #include "core/gcode/program_text.h"
 
 #include <algorithm>

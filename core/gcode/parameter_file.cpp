@@ -4,7 +4,6 @@
 #include "core/base/files.h"
 #include "core/base/text.h"
 #include "core/gcode/internal/variables.h"
-#include "core/gcode/line_ends.h"
 #include "core/gcode/program_text.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #include "core/base/numbers.h"
 #include "core/base/units.h"
 #include "core/gcode/canon_frame.h"
-#include "core/gcode/chords.h"
 #include "core/kinematics/forward.h"
 
 #include <algorithm>

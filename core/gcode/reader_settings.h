@@ -1,17 +1,29 @@
 // What surrounds a program: dialect, machine, and how much it may do.
 #pragma once
 
-#include "core/gcode/dialect.h"
 #include "core/gcode/modal_state.h"
 #include "core/gcode/tool_table.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace millwright::gcode {
+
+// Whose rules a program is read by.
+
+enum class Dialect : std::uint8_t {
+    linuxcnc, ///< RS-274/NGC as LinuxCNC 2.9 reads it
+    grbl,     ///< the subset of Grbl 1.1, with its own refusals
+    fanuc     ///< LinuxCNC's rules with G43.4 and dwells in ms: for what is written for Fanuc's controls
+};
+
+/// "linuxcnc" or "grbl".
+[[nodiscard]] std::optional<Dialect> dialect_of(std::string_view name);
 
 struct ReaderSettings {
     Dialect dialect = Dialect::linuxcnc;

@@ -1,8 +1,8 @@
 #include "core/gcode/tool_comments.h"
 
 #include "core/base/numbers.h"
-#include "core/gcode/line_ends.h"
 #include "core/gcode/modal_state.h"
+#include "core/gcode/program_text.h"
 
 #include <algorithm>
 #include <array>

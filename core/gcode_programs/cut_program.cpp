@@ -4,7 +4,6 @@
 #include "core/gcode/program_text.h"
 #include "core/gcode_programs/internal/cut_program_builder.h"
 #include "core/gcode_programs/machine_program.h"
-#include "core/gcode_programs/xyz_machine.h"
 #include "core/plot/plot_program.h"
 
 #include <fmt/format.h>

@@ -7,15 +7,33 @@
 #include "core/gcode/parameter_file.h"
 #include "core/gcode/tool_table.h"
 #include "core/gcode_programs/work_origin.h"
+#include "core/kinematics/machine_model.h"
 #include "core/plot/cut_path.h"
 #include "core/plot_strokes/strokes.h"
 
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::gcode {
+
+// A machine of X, Y and Z without limits: of what has no other axes and plans nothing.
+
+[[nodiscard]] inline kinematics::MachineModel xyz_machine() {
+    kinematics::MachineDescription description;
+    description.name = "X, Y, Z";
+    for (int n = 0; n < 3; ++n) {
+        kinematics::MachineAxis axis;
+        axis.letter = "XYZ"[n];
+        axis.direction = Vec3::Unit(n);
+        axis.max_velocity = 1.0; // nothing is planned for it
+        axis.max_acceleration = 1.0;
+        description.head.push_back(axis);
+    }
+    return kinematics::MachineModel(std::move(description));
+}
 
 struct CutProgramSettings {
     std::optional<ToolTable> tools{};     ///< not given: any, of unknown length and diameter

@@ -3,7 +3,7 @@
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/gcode/line_ends.h"
+#include "core/gcode/program_text.h"
 #include "core/gcode_programs/programmed_feed.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 
 #include "core/gcode/axes.h"
 #include "core/gcode/canon.h"
-#include "core/gcode/dialect.h"
+#include "core/gcode/reader_settings.h"
 #include "core/gcode/tool_table.h"
 
 #include <filesystem>

@@ -1,11 +1,9 @@
 #include "core/geometry/bezier_patch.h"
 
 #include "core/base/error.h"
+#include "core/geometry/internal/control_net.h"
 #include "core/geometry/internal/homogeneous_point.h"
-#include "core/geometry/internal/net_faults.h"
-#include "core/geometry/internal/projected.h"
 #include "core/geometry/internal/unit_normal.h"
-#include "core/geometry/internal/weighted_points.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/geometry/bezier_patch.h"
-#include "core/geometry/internal/balanced_cells.h"
-#include "core/geometry/internal/cell_tree.h"
+#include "core/geometry/internal/surface_cells.h"
 
 #include <nanoflann.hpp>
 

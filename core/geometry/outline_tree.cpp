@@ -1,7 +1,5 @@
 #include "core/geometry/outline_tree.h"
 
-#include "core/geometry/outline_edges.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -45,4 +45,11 @@ struct Extent {
 /// The mesh where `a_T_b` takes it.
 [[nodiscard]] SolidMesh moved(SolidMesh mesh, const Frame& a_T_b);
 
+// Whether the inside of a body can be seen.
+
+/// Whether the triangles enclose their inside and look outwards: each edge is passed as often one way as the
+/// other, and the volume by the divergence theorem is positive. Corners are the same where their coordinates
+/// are equal. Throws Defect for an index outside.
+[[nodiscard]] bool is_closed(const SolidMesh& mesh);
+
 } // namespace millwright::geometry

@@ -1,6 +1,6 @@
 #include "core/geometry/trim.h"
 
-#include "core/geometry/outline_edges.h"
+#include "core/geometry/outline_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/base/progress.h"
-#include "core/grid/path_objective.h"
+#include "core/grid/path_descent.h"
 
 namespace millwright::grid {
 

@@ -1,6 +1,6 @@
 #include "core/grid/descent.h"
 
-#include "core/grid/internal/rows.h"
+#include "core/grid/internal/parallel_nodes.h"
 
 #include <algorithm>
 #include <cmath>

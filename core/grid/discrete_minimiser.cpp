@@ -1,7 +1,7 @@
 #include "core/grid/discrete_minimiser.h"
 
 #include "core/base/error.h"
-#include "core/grid/internal/corner_sums.h"
+#include "core/grid/corner_functionals.h"
 #include "core/grid/internal/outline.h"
 
 #include <algorithm>

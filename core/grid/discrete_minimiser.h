@@ -1,11 +1,11 @@
-// The robust solver: minimises a functional over the corners of the cells (discrete_functional.h,
-// harmonic_functional.h) by L-BFGS. A step that would
-// close a corner triangle is shortened, so no iteration ever folds a cell, however strong the weight.
+// The robust solver: minimises a functional over the corners of the cells (corner_functionals.h) by
+// L-BFGS. A step that would close a corner triangle is shortened, so no iteration ever folds a cell, however
+// strong the weight.
 #pragma once
 
+#include "core/grid/corner_functionals.h"
 #include "core/grid/descent.h"
-#include "core/grid/discrete_functional.h"
-#include "core/grid/elliptic_solver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <cstddef>
 #include <functional>

@@ -4,11 +4,11 @@
 #include "core/base/numbers.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/grid/corner_functionals.h"
 #include "core/grid/discrete_minimiser.h"
-#include "core/grid/harmonic_functional.h"
 #include "core/grid/internal/adaptation_text.h"
 #include "core/grid/jacobi_newton.h"
-#include "core/grid/multigrid_then_minimiser.h"
+#include "core/grid/multigrid.h"
 #include "core/grid/quality_guard.h"
 #include "core/grid/region.h"
 

@@ -4,9 +4,8 @@
 // moved node is always on the surface.
 #pragma once
 
-#include "core/grid/elliptic_solver.h"
-#include "core/grid/error_weight.h"
 #include "core/grid/grid_optimiser.h"
+#include "core/grid/weight.h"
 
 #include <cstddef>
 #include <functional>

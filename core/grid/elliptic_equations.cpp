@@ -1,8 +1,8 @@
 #include "core/grid/elliptic_equations.h"
 
 #include "core/base/error.h"
-#include "core/grid/internal/node_stencil.h"
-#include "core/grid/internal/rows.h"
+#include "core/grid/internal/node_step.h"
+#include "core/grid/internal/parallel_nodes.h"
 
 #include <algorithm>
 #include <cmath>

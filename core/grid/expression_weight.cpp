@@ -4,7 +4,7 @@
 #include "core/base/quiet_floats.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/geometry/curvature.h"
+#include "core/geometry/surface_point.h"
 #include "core/grid/grid.h"
 
 #include <muParser.h>

@@ -2,8 +2,8 @@
 // A shortest path whose edges all have length 1.
 #pragma once
 
-#include "core/grid/move_cost.h"
 #include "core/grid/track.h"
+#include "core/grid/track_path.h"
 
 #include <optional>
 

@@ -9,4 +9,10 @@ OptimiserState run(GridOptimiser& optimiser, const Progress& progress) {
     return optimiser.state();
 }
 
+SolverStatus solve(EllipticSolver& solver) {
+    while (solver.iterate()) {
+    }
+    return solver.status();
+}
+
 } // namespace millwright::grid

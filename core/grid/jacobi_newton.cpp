@@ -4,7 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/grid/internal/node_step.h"
 #include "core/grid/internal/outline.h"
-#include "core/grid/internal/rows.h"
+#include "core/grid/internal/parallel_nodes.h"
 
 #include <algorithm>
 #include <cmath>

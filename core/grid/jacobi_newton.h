@@ -4,7 +4,7 @@
 // two.
 #pragma once
 
-#include "core/grid/elliptic_solver.h"
+#include "core/grid/grid_optimiser.h"
 
 #include <cstddef>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "core/grid/node_array.h"
 
 #include "core/base/error.h"
-#include "core/grid/internal/rows.h"
+#include "core/grid/internal/parallel_nodes.h"
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/grid/internal/each_track.h"
-#include "core/grid/lattice.h"
+#include "core/grid/internal/parallel_nodes.h"
+#include "core/grid/track.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/grid/grid_optimiser.h"
-#include "core/grid/track_quality_guard.h"
+#include "core/grid/quality_guard.h"
 
 namespace millwright::grid {
 

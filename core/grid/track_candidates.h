@@ -1,12 +1,23 @@
 // Places where a track may lie, each with the best nodes there, and the choice of tracks among them.
 #pragma once
 
-#include "core/grid/track_settings.h"
+#include "core/grid/track_optimiser.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace millwright::grid {
+
+// Where the tracks themselves should lie: of many candidates between the outer two, those whose best nodes
+// cost least together, at distances that keep the scallop height.
+
+/// The `count` of costs.size() candidates, ascending, with the least sum of costs: the first and the last are
+/// among them, and neighbours are `nearest` to `furthest` candidates apart. By dynamic programming, exact.
+/// Nothing if there is no such choice of finite cost. Throws Defect unless count >= 2 and
+/// 1 <= nearest <= furthest.
+[[nodiscard]] std::optional<std::vector<int>>
+cheapest_choice(std::span<const double> costs, int count, int nearest, int furthest);
 
 /// Candidates lie evenly between neighbours of a start's tracks, which are among them.
 class TrackCandidates {

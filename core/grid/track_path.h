@@ -4,17 +4,52 @@
 // a given grid finds.
 #pragma once
 
+#include "core/base/numbers.h"
 #include "core/base/progress.h"
 #include "core/grid/error_model.h"
-#include "core/grid/move_cost.h"
 #include "core/grid/track.h"
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace millwright::grid {
+
+// What a move costs the track optimiser, and what no move may exceed.
+
+/// error = off_surface + tip_share (tip - off_surface) + param_share param + axis_weight axis
+/// cost = (even_length + length_share (length - even_length)) error^exponent
+/// By the mean per move (length_share 0) the search buys many tiny perfect moves with a few long bad ones; by
+/// the length (length_share 1) it neglects what the mean counts. In between it serves both means.
+struct MoveCost {
+    double exponent = 2.0;
+    double tip_share = 1.0;
+    double param_share = 0.0;
+    double axis_weight = 0.0; ///< mm that one rad of axis deviation counts
+    double length_share = 1.0;
+    double even_length = 1.0; ///< of a move if all moves of the track were equally long, mm
+
+    /// Infinity where the move is out of reach.
+    [[nodiscard]] double operator()(const MoveError& move) const {
+        if (!std::isfinite(move.tip) || !std::isfinite(move.axis)) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double error =
+            mix(move.off_surface, move.tip, tip_share) + param_share * move.param + axis_weight * move.axis;
+        const double weight = mix(even_length, move.length, length_share);
+        return weight * (exactly_equal(exponent, 2.0) ? square(error) : std::pow(error, exponent));
+    }
+};
+
+struct MoveLimits {
+    double tip = std::numeric_limits<double>::infinity();  ///< mm
+    double axis = std::numeric_limits<double>::infinity(); ///< rad
+
+    [[nodiscard]] bool allow(const MoveError& move) const { return move.tip <= tip && move.axis <= axis; }
+};
 
 /// Which moves of a lattice are looked at: those whose places differ by `shortest` to `longest`.
 struct MoveWindow {
@@ -84,5 +119,44 @@ shortest_path(const MoveTable& table, const MoveCost& cost, const MoveLimits& li
 
 /// The places of `path`.
 [[nodiscard]] std::vector<double> places_of(const MoveTable& table, const LatticePath& path);
+
+// The last few per cent between the places of the lattice: each node in turn tries a step forward and back on
+// its track and stays where the cost of its two moves is less. Steps grow where they succeed and shrink where
+// not.
+
+struct PolishSettings {
+    MoveCost cost = {};
+    MoveLimits limits = {};
+    double min_gap = 0.0;      ///< no two nodes come nearer, or nearer than they are
+    Sampling sampling{16, 16}; ///< 10 times inside a move let the search slip between them
+    double first_step = 0.10;  ///< of the smaller gap next to the node
+    double growth = 1.3;       ///< of the step after a success
+    double shrinking = 0.5;    ///< of the step after a failure both ways
+};
+
+/// One track while it is polished. The ends stay, the total cost never rises, and of the two moves at a node
+/// the worse one, where it is above a limit, never gets worse in what it exceeds.
+class TrackPolish {
+public:
+    TrackPolish(const ErrorModel& model, PlacedTrack track, const PolishSettings& settings);
+
+    /// Moves every inner node once; returns the longest way that one went. Throws Cancelled with the track
+    /// valid but half swept.
+    double sweep(const Progress& progress);
+
+    [[nodiscard]] const PlacedTrack& track() const { return track_; }
+    /// By the settings' sampling.
+    [[nodiscard]] const std::vector<MoveError>& moves() const { return moves_; }
+
+private:
+    [[nodiscard]] MoveError move(double from, double to) const;
+    bool try_place(std::size_t node, double place);
+
+    const ErrorModel& model_;
+    PolishSettings settings_;
+    PlacedTrack track_;
+    std::vector<MoveError> moves_; // [node]: from this node to the next
+    std::vector<double> steps_;    // [node]
+};
 
 } // namespace millwright::grid

@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/geometry/curvature.h"
-#include "core/grid/error_weight.h"
+#include "core/geometry/surface_point.h"
+#include "core/grid/weight.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 #include "core/jobs/dispatcher.h"
 
 #include "core/base/error.h"
-#include "core/jobs/internal/path_estimate.h"
-#include "core/jobs/internal/position_envelope.h"
+#include "core/jobs/internal/position_estimate.h"
 #include "core/jobs/internal/running_job.h"
 #include "core/jobs/program_check.h"
 #include "core/jobs/tool_check.h"

@@ -5,7 +5,7 @@
 #include "core/gcode/program_text.h"
 #include "core/gcode/word_column.h"
 #include "core/gcode_programs/machine_program.h"
-#include "core/jobs/internal/planned_text.h"
+#include "core/jobs/file_job.h"
 #include "core/kinematics/travel.h"
 
 #include <fmt/format.h>

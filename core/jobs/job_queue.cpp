@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
-#include "core/jobs/internal/file_lock.h"
 #include "core/jobs/internal/queue_file.h"
 
 #include <fmt/format.h>

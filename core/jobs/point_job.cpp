@@ -3,7 +3,7 @@
 #include "core/drivers/pause.h"
 #include "core/drivers/table_axes.h"
 #include "core/gcode_programs/machine_program.h"
-#include "core/plot/decode_path.h"
+#include "core/plot/decode.h"
 #include "core/plot/plot_program.h"
 #include "core/posts/writer.h"
 

@@ -5,9 +5,10 @@
 #include "core/base/error.h"
 #include "core/drivers/driver.h"
 #include "core/gcode/axes.h"
-#include "core/gcode/dialect.h"
 #include "core/gcode/modal_state.h"
+#include "core/gcode/reader_settings.h"
 #include "core/geometry/vectors.h"
+#include "core/jobs/job.h"
 
 #include <array>
 #include <filesystem>
@@ -99,5 +100,11 @@ check_program(std::string_view text, const std::filesystem::path& file, const Pr
 [[nodiscard]] std::vector<Diagnostic> warnings_of(const ProgramCheck& program_check,
                                                   const drivers::MachineLimits& limits,
                                                   const std::filesystem::path& file);
+
+// Feeds that a machine does not reach.
+
+/// Of a job with a program: the first feed for which an axis would have to be faster than it can, and how
+/// many there are. They are executed slower; nothing if there is none.
+[[nodiscard]] std::optional<Diagnostic> feeds_not_reached(const Job& job);
 
 } // namespace millwright::jobs

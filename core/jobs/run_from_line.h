@@ -2,7 +2,7 @@
 // force is rebuilt, and the tool comes to where it should be from above.
 #pragma once
 
-#include "core/gcode/dialect.h"
+#include "core/gcode/reader_settings.h"
 #include "core/jobs/job.h"
 
 #include <filesystem>

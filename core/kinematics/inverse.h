@@ -7,6 +7,7 @@
 #include "core/geometry/tool_pose.h"
 #include "core/kinematics/machine_model.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,5 +52,17 @@ with_tip_at(const MachineModel& machine, AxisPositions positions, const Vec3& ti
 /// The pole direction in workpiece coordinates (unit) for a machine with rotary axes: the tool axes +pole and
 /// -pole leave one rotary angle free. Table-side innermost axis.
 [[nodiscard]] Vec3 pole_direction(const MachineModel& machine);
+
+// Choosing among the branches of the inverse kinematics.
+
+/// Sum of the rotary axes' travel from `a` to `b`, rad.
+[[nodiscard]] double
+rotary_travel(const MachineModel& machine, const AxisPositions& a, const AxisPositions& b);
+
+/// The branch with the least rotary travel from `previous`; the first of equals. Throws Defect if there is
+/// none.
+[[nodiscard]] const AxisPositions& nearest_branch(const MachineModel& machine,
+                                                  std::span<const AxisPositions> branches,
+                                                  const AxisPositions& previous);
 
 } // namespace millwright::kinematics

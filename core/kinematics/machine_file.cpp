@@ -4,7 +4,6 @@
 #include "core/base/file_format.h"
 #include "core/base/json.h"
 #include "core/base/units.h"
-#include "core/kinematics/file_bounds.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/json.h"
-#include "core/kinematics/solid_colors.h"
 
 #include <algorithm>
 #include <array>

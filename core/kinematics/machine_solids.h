@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/glb.h"
+#include "core/geometry/vectors.h"
 #include "core/kinematics/machine_model.h"
 
 #include <filesystem>
@@ -9,6 +10,10 @@
 #include <vector>
 
 namespace millwright::kinematics {
+
+// The colors that drawn machines and arms share.
+
+inline const Vec3 paint(0.86, 0.87, 0.88), graphite(0.27, 0.29, 0.32), steel(0.60, 0.64, 0.68);
 
 /// What one axis carries, or what stands on the floor: a body named "axis C" or "base", in m with all axes at
 /// their physical zero; each of the file's bodies is one of its meshes. Base first, then in the order of

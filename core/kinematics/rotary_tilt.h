@@ -4,6 +4,9 @@
 #pragma once
 
 #include "core/geometry/vectors.h"
+#include "core/kinematics/machine_model.h"
+
+#include <optional>
 
 namespace millwright::kinematics {
 
@@ -49,5 +52,17 @@ inline constexpr double vertical_threshold = 0.01; // of sqrt(i^2 + j^2); ch. 3 
 
 /// The principal branch: A in (-90, 90] deg for `consistent`.
 [[nodiscard]] RotaryTiltAngles rotary_tilt_angles(AngleMode mode, const Vec3& normal);
+
+// The constants of the thesis's rotary-tilt machine in a machine file: read from its axes, and put there.
+// Source: Parasilmongkol 1997, ch. 3 and the dialog Tool Set (a, b, c, e, OF, AB, B4).
+
+/// The constants of `machine`; nothing where it is built otherwise. A machine has only the difference
+/// B4 - OF, the height of the tool tip over the tilt axis: OF is its `tip_to_base` (0 without one) for the
+/// machine file's own tool, and as much more as the tool in the spindle is longer.
+[[nodiscard]] std::optional<RotaryTilt> rotary_tilt_of(const MachineModel& machine);
+
+/// `machine` with these constants and this place of the part; its bodies stay where its file has them. Throws
+/// Error where rotary_tilt_of() knows none.
+[[nodiscard]] MachineModel with_rotary_tilt(const MachineModel& machine, const RotaryTilt& constants);
 
 } // namespace millwright::kinematics

@@ -5,14 +5,34 @@
 
 #include "core/base/clock.h"
 #include "core/links/link.h"
-#include "core/links/port_registers.h"
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
 
 namespace millwright::links {
+
+// Byte registers of a card in the computer's I/O space, as those on the ISA bus had them.
+
+constexpr std::uint8_t no_card = 0xFF; ///< what a bus without a card reads
+
+class PortRegisters {
+public:
+    virtual ~PortRegisters() = default;
+    /// For people: "isa:0x210".
+    [[nodiscard]] virtual std::string name() const = 0;
+    /// Throws Error if they cannot be reached.
+    virtual void open() = 0;
+    virtual void close() noexcept = 0;
+    /// `offset` from the first register. All ones where no card is.
+    [[nodiscard]] virtual std::uint8_t read(int offset) = 0;
+    virtual void write(int offset, std::uint8_t value) = 0;
+};
+
+/// Those of this computer from `base` on, through /dev/port, which takes root. Linux alone.
+[[nodiscard]] std::unique_ptr<PortRegisters> io_ports(int base);
 
 class HostPortLink final : public Link {
 public:

@@ -4,7 +4,7 @@
 #include "core/links/file_link.h"
 #include "core/links/host_port_link.h"
 #include "core/links/serial_link.h"
-#include "core/links/tcp_link.h"
+#include "core/links/tcp.h"
 
 #include <fmt/format.h>
 

@@ -79,7 +79,7 @@ struct Path {
     std::vector<kinematics::AxisPositions> positions; ///< programmed, before each block and after the last
     std::vector<Segment> segments;                    ///< one per block
     std::vector<double> part_length;        ///< chords of the tip on the part up to each of `positions`, mm
-    double filter_time = 0.0;               ///< s, see timing.h; 0 without limits of jerk
+    double filter_time = 0.0;               ///< s, see trajectory.h; 0 without limits of jerk
     int look_ahead = 0;                     ///< moves that are known at a time; 0: all
     Profile speed;                          ///< that the axes allow; 0 where they have to stop
     Profile acceleration;                   ///< that they allow along the way

@@ -4,7 +4,6 @@
 #include "core/motion/internal/axis_path.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/timeline.h"
-#include "core/motion/plan_within.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,6 +1,6 @@
 // The look-ahead planner: as fast as the program and the axes allow, ending at rest. Speeds along the whole
 // path by one pass backward (what can still be braked) and one forward (what can be reached); then a filter
-// in time limits the jerk (timing.h). Formulas and proofs: docs/reference/motion.md.
+// in time limits the jerk (trajectory.h). Formulas and proofs: docs/reference/motion.md.
 //
 // Corners: in exact path mode the path is followed exactly, and the velocity of an axis changes in a corner
 // by a step. In continuous mode corners are rounded within a tolerance, and no axis exceeds any limit. Apart
@@ -13,6 +13,7 @@
 #include "core/program/program.h"
 
 #include <optional>
+#include <span>
 
 namespace millwright::motion {
 
@@ -57,5 +58,18 @@ struct PlannerSettings {
                               const arm::ArmModel& arm,
                               const PlannerSettings& settings,
                               const Progress& progress);
+
+// The plan of a program that allows its blocks less acceleration than the axes have.
+
+/// As plan(); along block n the linear axes together accelerate by accelerations[n] mm/s2 > 0 at most
+/// (infinity: as the axes can), and in a corner that is not rounded their velocity steps by what the smaller
+/// one of both blocks reaches in the corner time. Throws what plan() throws, Defect for accelerations that
+/// are not one per block.
+[[nodiscard]] Trajectory plan_within(const program::Program& program,
+                                     std::span<const double> accelerations,
+                                     const kinematics::MachineModel& machine,
+                                     const PlannerSettings& settings,
+                                     const Progress& progress,
+                                     const std::optional<kinematics::AxisPositions>& start = std::nullopt);
 
 } // namespace millwright::motion

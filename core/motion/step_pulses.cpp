@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/motion/internal/axis_way.h"
+#include "core/motion/path.h"
 
 #include <fmt/format.h>
 
@@ -12,10 +12,81 @@
 #include <optional>
 
 namespace millwright::motion {
-
 namespace {
 
-using internal::Part;
+// One axis on its way through a block: where it turns back, and where it has a given position.
+
+/// A part of a block's way, as offsets into it.
+struct Part {
+    double begin = 0.0, end = 0.0;
+};
+
+double position_at(const Path& path, int block, int axis, double offset) {
+    return path.at(block, offset).position[axis];
+}
+
+/// Bisection to the last bit: where `rises` in [begin, end] passes from false to true.
+template <class Passed> double place_of(double begin, double end, Passed passed) {
+    for (;;) {
+        const double middle = 0.5 * (begin + end);
+        if (!(middle > begin && middle < end)) {
+            return middle;
+        }
+        (passed(middle) ? end : begin) = middle;
+    }
+}
+
+/// Cuts a rounding where the axis stands still for a moment.
+void add_rounding(const Path& path, int block, int axis, const Part& part, std::vector<Part>& parts) {
+    const double in = path.at(block, part.begin).first[axis];
+    const double out = path.at(block, part.end).first[axis];
+    if (in * out < 0.0) {
+        const double turn = place_of(part.begin, part.end, [&](double offset) {
+            return path.at(block, offset).first[axis] * in < 0.0;
+        });
+        parts.push_back({part.begin, turn});
+        parts.push_back({turn, part.end});
+    } else {
+        parts.push_back(part);
+    }
+}
+
+/// The part of a block between two offsets, cut so that the axis only rises or only falls on each piece, and
+/// goes linearly on a piece without a rounding.
+std::vector<Part> monotone_parts(const Path& path, int block, int axis, const Part& whole) {
+    const Segment& segment = path.segments[static_cast<std::size_t>(block)];
+    std::vector<Part> parts;
+    const auto inside = [&](double begin, double end) {
+        return Part{std::max(begin, whole.begin), std::min(end, whole.end)};
+    };
+    const double straight_end = segment.length - segment.rounding_end;
+    if (const Part in = inside(0.0, segment.rounding_start); in.begin < in.end) {
+        add_rounding(path, block, axis, in, parts);
+    }
+    if (const Part straight = inside(segment.rounding_start, straight_end); straight.begin < straight.end) {
+        parts.push_back(straight);
+    }
+    if (const Part out = inside(straight_end, segment.length);
+        out.begin < out.end && segment.rounding_end > 0.0) {
+        add_rounding(path, block, axis, out, parts);
+    }
+    return parts;
+}
+
+/// Where on a monotone part the axis is at `position`, which must lie between its ends.
+double offset_of(const Path& path, int block, int axis, const Part& part, double position) {
+    const Segment& segment = path.segments[static_cast<std::size_t>(block)];
+    const double from = position_at(path, block, axis, part.begin);
+    const double to = position_at(path, block, axis, part.end);
+    if (!(part.begin < segment.rounding_start) && !(part.end > segment.length - segment.rounding_end)) {
+        const double share = std::clamp((position - from) / (to - from), 0.0, 1.0);
+        return std::lerp(part.begin, part.end, share);
+    }
+    const double sense = to > from ? 1.0 : -1.0;
+    return place_of(part.begin, part.end, [&](double offset) {
+        return sense * (position_at(path, block, axis, offset) - position) > 0.0;
+    });
+}
 
 constexpr std::int64_t usual_most_pulses = 1'000'000'000; // a block: minutes of computing
 constexpr std::size_t handed_over = 4096;                 // pulses at once
@@ -53,7 +124,7 @@ public:
         trajectory_ = &trajectory;
         block_ = block;
         length_ = path.segments[static_cast<std::size_t>(block)].length;
-        pieces_ = internal::monotone_parts(path, block, axis_, part);
+        pieces_ = monotone_parts(path, block, axis_, part);
         piece_ = 0;
         enter_piece();
     }
@@ -63,8 +134,8 @@ public:
         while (piece_ < pieces_.size()) {
             const double middle = static_cast<double>(position_) + 0.5 * direction_;
             if (direction_ * (end_ - middle) > 0.0) {
-                const double offset = internal::offset_of(
-                    trajectory_->path(), block_, axis_, pieces_[piece_], middle / steps_per_unit_);
+                const double offset =
+                    offset_of(trajectory_->path(), block_, axis_, pieces_[piece_], middle / steps_per_unit_);
                 return pulse(trajectory_->time_at(block_, offset / length_));
             }
             ++piece_;

@@ -1,6 +1,6 @@
 #include "core/motion/time_estimate.h"
 
-#include "core/motion/internal/axis_path_builder.h"
+#include "core/motion/internal/axis_path.h"
 #include "core/motion/internal/mechanism.h"
 #include "core/motion/internal/planned_move.h"
 #include "core/motion/internal/rounding_choice.h"

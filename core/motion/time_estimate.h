@@ -12,7 +12,7 @@
 namespace millwright::motion {
 
 /// The time over which the motion of a program is averaged so that no axis exceeds its jerk: so long that no
-/// axis that moves changes its acceleration from one limit to the other faster (timing.h).
+/// axis that moves changes its acceleration from one limit to the other faster (trajectory.h).
 class FilterTime {
 public:
     FilterTime(const kinematics::MachineModel& machine, kinematics::AxisPositions start);

@@ -4,7 +4,7 @@
 #include "core/base/units.h"
 #include "core/geometry/self_crossing.h"
 #include "core/kinematics/machine_file.h"
-#include "core/kinematics/rotary_tilt_machine.h"
+#include "core/kinematics/rotary_tilt.h"
 #include "core/project/assets.h"
 #include "core/project/surface.h"
 #include "core/project/tool_settings.h"

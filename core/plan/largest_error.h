@@ -1,7 +1,7 @@
 // How sure the largest error of a path is.
 #pragma once
 
-#include "core/geometry/distance_bounds.h"
+#include "core/geometry/surface_bounds.h"
 #include "core/plan/evaluation.h"
 
 #include <optional>

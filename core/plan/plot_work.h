@@ -8,7 +8,7 @@
 #include "core/plan/pipeline.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/height_field.h"
-#include "core/plot/picture/png_writer.h"
+#include "core/plot/picture/picture.h"
 #include "core/plot/point_file.h"
 #include "core/plot/work_time.h"
 #include "core/program/listing.h"

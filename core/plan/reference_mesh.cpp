@@ -1,6 +1,6 @@
 #include "core/plan/reference_mesh.h"
 
-#include "core/geometry/trimmed_square.h"
+#include "core/geometry/mesh.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/geometry/turned.h"
+#include "core/geometry/net_editing.h"
 #include "core/plan/set_up_reach.h"
 
 #include <fmt/format.h>

@@ -7,6 +7,8 @@
 #include "core/plot_strokes/region.h"
 #include "core/plot_strokes/strokes.h"
 
+#include <cstddef>
+
 namespace millwright::plot {
 
 enum class CutterSide { on_line, outside, inside };
@@ -38,5 +40,12 @@ offset(const Region& region, double distance, Corners corners, double arc_tolera
 /// nothing is left. Throws Error as `offset`, and for a pitch that is not above 0 or too small for the
 /// region.
 [[nodiscard]] Strokes contour_hatch(const Region& region, double first, double pitch, int pen = 1);
+
+// Parts of a region that a tool does not fit into.
+
+/// How many parts of the region (holes, where the tool goes around outside) `compensated` has no path for, as
+/// the tool does not fit into them anywhere. Throws Error as `compensated`.
+[[nodiscard]] std::size_t count_unreachable_regions(const Region& region,
+                                                    const CompensationSettings& settings);
 
 } // namespace millwright::plot

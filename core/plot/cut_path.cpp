@@ -2,7 +2,6 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "core/plot/path_bound.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +11,23 @@
 #include <set>
 
 namespace millwright::plot {
+
+std::vector<Level> with_tab_widths(std::vector<Level> levels, double tool_diameter) {
+    expects(tool_diameter >= 0.0, "a tool has a width");
+    for (Level& level : levels) {
+        level.tabs.width += level.tabs.count > 0 ? level.tool_diameter.value_or(tool_diameter) : 0.0;
+    }
+    return levels;
+}
+
+void expect_not_too_long(std::size_t points) {
+    if (points > most_path_points) {
+        throw Error(fmt::format("the path has more than {} million points", most_path_points / 1'000'000),
+                    {},
+                    "use a larger step-over or pitch, fewer pixels or passes, or part of the drawing");
+    }
+}
+
 namespace {
 
 void check_cut_settings(const CutSettings& settings) {

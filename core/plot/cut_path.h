@@ -6,10 +6,19 @@
 #include "core/plot/compensation.h"
 #include "core/plot_strokes/strokes.h"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace millwright::plot {
+
+// How long a cutting path may be.
+
+/// A point takes 40 bytes, and about as many where it is drawn.
+inline constexpr std::size_t most_path_points = 20'000'000;
+
+/// Throws Error if a path has more points than that.
+void expect_not_too_long(std::size_t points);
 
 /// Bridges that hold a part in its plate until it is broken out: the tool rises on the way around closed
 /// strokes.
@@ -85,5 +94,11 @@ void expect_within_plate(const CutPath& path, double thickness);
 /// height above the first stroke and ends at the safe height. Strokes of pens without a level are not cut.
 /// Throws Error naming the setting that is out of its range.
 [[nodiscard]] CutPath cut_path(const Strokes& strokes, const CutSettings& settings);
+
+// People say how wide a bridge is that stands; the tool leaves it narrower by its own width.
+
+/// The levels with tabs that are wider on the way of the tool's middle by their own diameter, else by
+/// `tool_diameter` (mm, >= 0), so that those of the given widths stand. Without tabs as they are.
+[[nodiscard]] std::vector<Level> with_tab_widths(std::vector<Level> levels, double tool_diameter);
 
 } // namespace millwright::plot

@@ -1,8 +1,6 @@
 #include "core/plot/decode.h"
 
 #include "core/base/error.h"
-#include "core/plot/decode_path.h"
-#include "core/plot/decode_within.h"
 #include "core/plot/internal/speed_profile.h"
 
 #include <fmt/format.h>
@@ -12,6 +10,7 @@
 #include <limits>
 
 namespace millwright::plot {
+
 namespace {
 
 void check_decode_settings(const DecodeSettings& settings) {

@@ -3,6 +3,7 @@
 // constant-velocity control of an XYZ table, ch. 3, eqs 3-1 to 3-7.
 #pragma once
 
+#include "core/plot/cut_path.h"
 #include "core/plot_strokes/strokes.h"
 
 #include <cstdint>
@@ -53,5 +54,33 @@ struct DecodeSettings {
 /// speed, period or height, and for more points than are allowed.
 [[nodiscard]] std::vector<Vec3>
 decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start = Vec2::Zero());
+
+// A path in space as points for a table that takes one point a sampling period (decode.h).
+
+struct DecodedPath {
+    std::vector<Vec3> points;
+    /// For each of them the point of the path that it leads to or is at, never falling; -1 on the way to the
+    /// height of the first.
+    std::vector<int> path_points;
+};
+
+/// At the path's own heights: cuts at the velocity along the path in space, up, down and travel at theirs.
+/// Speeds of the path do not count, nor do heights and end of the pen in the settings. A tool change is no
+/// point: whoever plays them stops there. Begins at `start` (not given: above zero, at the height of the
+/// path's first point) and goes up or down to that height before it goes across. `fastest` as in
+/// decode_within(). Throws Error as decode() and decode_within().
+[[nodiscard]] DecodedPath decode_path(const CutPath& path,
+                                      const DecodeSettings& settings,
+                                      const std::optional<double>& fastest = std::nullopt,
+                                      const std::optional<Vec3>& start = std::nullopt);
+
+// Points for a machine that goes no faster than it can. mm/s.
+
+/// As decode(). Rounding down or to nearest makes segments up to twice as fast as their velocity; where they
+/// would be faster than `fastest` they have more steps. Throws Error, too, for a velocity above it.
+[[nodiscard]] std::vector<Vec3> decode_within(double fastest,
+                                              const Strokes& strokes,
+                                              const DecodeSettings& settings,
+                                              const Vec2& start = Vec2::Zero());
 
 } // namespace millwright::plot

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace millwright::plot {
@@ -66,5 +67,12 @@ struct ShapedStrokes {
 /// All of it. Throws Error as above, or Cancelled.
 [[nodiscard]] ShapedStrokes
 planned(const Strokes& drawn, const StrokePlan& plan, const Progress& progress = Progress());
+
+// What a person should know of strokes that were to be compensated or filled.
+
+/// One line on those of the drawing that are not closed and stay as they are, and on parts of it that the
+/// tool does not fit into; empty: there are none, or nothing was asked for.
+[[nodiscard]] std::string
+unprocessed_strokes(const Strokes& drawn, const ShapedStrokes& shaped, const StrokePlan& plan);
 
 } // namespace millwright::plot

@@ -5,8 +5,8 @@
 #include "core/base/units.h"
 #include "core/gcode/inverse_time.h"
 #include "core/kinematics/forward.h"
+#include "core/program/number_format.h"
 #include "core/program/retract.h"
-#include "core/program/written.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,7 +5,7 @@
 #include "core/base/units.h"
 #include "core/gcode_programs/klartext.h"
 #include "core/gcode_programs/written_steps.h"
-#include "core/posts/arc_deviation.h"
+#include "core/posts/arc_fit.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
 #include "core/program/internal/clearance.h"
-#include "core/program/written.h"
+#include "core/program/number_format.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 #include "core/plot/material_table.h"
 #include "core/plot/picture/engraving.h"
 #include "core/plot/picture/picture.h"
-#include "core/plot/picture/picture_size.h"
 #include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/tool_tip.h"
 #include "core/plot/picture/trace.h"

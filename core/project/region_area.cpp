@@ -1,6 +1,6 @@
 #include "core/project/internal/region_area.h"
 
-#include "core/geometry/trimmed_square.h"
+#include "core/geometry/mesh.h"
 
 namespace millwright::project {
 

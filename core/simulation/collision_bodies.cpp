@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/geometry/closed_solid.h"
+#include "core/geometry/solid.h"
 #include "core/kinematics/machine_solids.h"
 #include "core/simulation/collision_motion.h"
 

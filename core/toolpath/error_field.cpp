@@ -2,10 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/geometry/curvature.h"
+#include "core/geometry/surface_point.h"
 #include "core/kinematics/forward.h"
 #include "core/toolpath/body_clearance.h"
-#include "core/toolpath/internal/move_looks.h"
+#include "core/toolpath/internal/move_error.h"
 #include "core/toolpath/tool_poses.h"
 
 #include <algorithm>

@@ -13,7 +13,7 @@ namespace millwright::toolpath {
 
 /// The move from a to b: both poses by inverse kinematics, branch of b nearest to a, axes linear in between.
 /// `tip`: largest distance of the true tip from the surface curve between the nodes; of a cutter by how much
-/// its bottom (internal/cutter_bottom.h) misses or enters the surface, and how far beside its way. `axis`:
+/// its bottom (internal/tool_curve.h) misses or enters the surface, and how far beside its way. `axis`:
 /// largest angle of the true axis to that wanted there. A tool that leans is judged on and back, by the
 /// worse. On a pole the free angle is that of the other end: no rotation in place. Unlike on the path, each
 /// move chooses its branches for itself: `sequencing` and what else the body touches count in `on_path`.

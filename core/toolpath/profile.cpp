@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/toolpath/internal/body_height.h"
 
 #include <algorithm>
 #include <cmath>

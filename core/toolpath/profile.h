@@ -77,4 +77,14 @@ struct BodyNear {
 [[nodiscard]] double
 height_over(const Profile& body, const geometry::ToolPose& pose, const Vec3& point, const Vec3& direction);
 
+// How high over a point of the surface a body of revolution begins, where only what is lower than something
+// counts.
+
+/// As height_over(); what is not below `enough` may be given as any other height that is not.
+[[nodiscard]] double height_below(const Profile& body,
+                                  const geometry::ToolPose& pose,
+                                  const Vec3& point,
+                                  const Vec3& direction,
+                                  double enough);
+
 } // namespace millwright::toolpath

@@ -5,9 +5,15 @@
 #include "core/kinematics/rotary_tilt.h"
 #include "core/toolpath/toolpath.h"
 
+#include <string>
 #include <vector>
 
 namespace millwright::toolpath {
+
+// What is said of a path point that cannot be run.
+
+/// Throws Error with the point's number, node and tip, and `why`.
+[[noreturn]] void refuse_point(std::size_t n, const PathPoint& point, const std::string& why);
 
 /// Axis positions, one per path point. The tool reaches every pose exactly (round_trip_mm).
 struct AxisPath {

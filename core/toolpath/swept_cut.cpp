@@ -7,7 +7,7 @@
 #include "core/geometry/closest_point.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "core/toolpath/body_clearance.h"
-#include "core/toolpath/internal/body_height.h"
+#include "core/toolpath/profile.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/toolpath/actual_trajectory.h"
-#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/sequencing.h"
+#include "core/toolpath/tool_poses.h"
 #include "core/toolpath/zigzag.h"
 
 #include <fmt/format.h>

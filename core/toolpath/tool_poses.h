@@ -3,10 +3,24 @@
 #pragma once
 
 #include "core/geometry/parametric_surface.h"
+#include "core/geometry/tool_pose.h"
 #include "core/kinematics/machine_model.h"
 #include "core/toolpath/toolpath.h"
 
+#include <optional>
+
 namespace millwright::toolpath {
+
+// Machines without rotary axes: the tool keeps its axis, whatever the surface does. It is a point at the end
+// of its axis, so that the tip is still on the surface.
+
+/// `pose` with the axis that the machine gives the tool: its own without rotary axes, else the pose's.
+/// Nothing where such a tool would come from inside of the part.
+[[nodiscard]] std::optional<geometry::ToolPose> pose_on(const kinematics::MachineModel& machine,
+                                                        const geometry::ToolPose& pose);
+
+/// Every point of `toolpath` with the axis of pose_on. Throws Error with the node of an undercut.
+[[nodiscard]] Toolpath on_machine(const kinematics::MachineModel& machine, Toolpath toolpath);
 
 /// `contacts`, a path of a point along the normal, as the path of `tool` on `machine`. The direction of the
 /// move at a point is that from the point before to the one after on its track. Throws Error with the node

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/geometry/presets.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/inverse.h"
 #include "core/program/post.h"
 #include "core/program/program.h"

@@ -1,11 +1,11 @@
 // The part of AppController that deals with the arm: what it shows, plays, and gives to its card.
-#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_motion_file.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/counted.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/base/units.h"
-#include "core/motion/taught_points_motion.h"
+#include "core/motion/arm_motion.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_file.h"
 #include "core/pmac/driver/pmac_program.h"

@@ -4,7 +4,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/jobs/job.h"
-#include "core/jobs/resume_point.h"
+#include "core/jobs/recovery.h"
 #include "core/plan/strategy_path.h"
 #include "core/project/color_choices.h"
 #include "core/project/gcode_file.h"

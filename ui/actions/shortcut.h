@@ -1,7 +1,7 @@
 // Shortcuts as people read them ("Ctrl+Shift+S") and as keys.
 #pragma once
 
-#include "ui/render/keys.h"
+#include "ui/render/input_state.h"
 
 #include <string_view>
 

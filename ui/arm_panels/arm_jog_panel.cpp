@@ -1,6 +1,6 @@
 #include "ui/arm_panels/arm_jog_panel.h"
 
-#include "core/arm/arm_rates.h"
+#include "core/arm/arm_hold.h"
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/units.h"

@@ -3,7 +3,7 @@
 #include "core/base/sentences.h"
 #include "core/base/text.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
+#include "core/kinematics/tool_rotation.h"
 #include "core/project/assets.h"
 #include "ui/arm_panels/arm_path_fields.h"
 #include "ui/arm_panels/internal/joint_units.h"

@@ -1,7 +1,7 @@
 #include "ui/machine_panels/connection_panel.h"
 
 #include "core/base/sentences.h"
-#include "core/links/serial_ports.h"
+#include "core/links/serial_link.h"
 #include "ui/machine_panels/manual_position_fields.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/serial_fields.h"

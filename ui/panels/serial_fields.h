@@ -1,7 +1,7 @@
 // Rate, parity and stop bits of a serial port, and the line ends of records, beside the field of the address.
 #pragma once
 
-#include "core/links/serial_address.h"
+#include "core/links/serial_link.h"
 #include "ui/widgets/ui.h"
 
 #include <optional>

@@ -1,7 +1,7 @@
 #include "ui/processor_panels/processor_pass.h"
 
 #include "core/base/error.h"
-#include "core/cordic_study/unturned_rotation.h"
+#include "core/cordic_study/single_pass.h"
 #include "ui/widgets/plot.h"
 
 #include <fmt/format.h>

@@ -2,10 +2,9 @@
 // ui/widgets/internal/imgui_inside. Everything else uses only what both have.
 #pragma once
 
+#include "ui/render/framebuffer.h"
 #include "ui/render/input_state.h"
-#include "ui/render/keys.h"
 #include "ui/render/pixel_size.h"
-#include "ui/render/view_target.h"
 
 #include <imgui.h>
 

@@ -5,7 +5,6 @@
 
 #include "ui/render/input_state.h"
 #include "ui/render/offscreen_context.h"
-#include "ui/render/typing.h"
 #include "ui/render/window_context.h"
 
 #include <set>

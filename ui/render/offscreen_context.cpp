@@ -3,8 +3,6 @@
 #include "core/base/error.h"
 #include "ui/render/framebuffer.h"
 #include "ui/render/internal/gl.h"
-#include "ui/render/internal/gl_version.h"
-#include "ui/render/internal/read_pixels.h"
 
 #include <epoxy/egl.h>
 

@@ -103,4 +103,11 @@ struct ViewColors {
 /// the theme has several, as for the names of the axes.
 [[nodiscard]] std::optional<glm::vec3> color_of(const ViewColors& colors, LayerColor which);
 
+// The colours of what is written straight on the background of a view, which a person can choose.
+
+/// Of text and scales: the end of the neutral ramp that is read better on the background.
+[[nodiscard]] glm::vec3 ink(const ViewColors& colors);
+/// Of captions, next to that end.
+[[nodiscard]] glm::vec3 faint_ink(const ViewColors& colors);
+
 } // namespace millwright::render

@@ -4,8 +4,6 @@
 #include "ui/render/internal/display_loss.h"
 #include "ui/render/internal/gamepad_state.h"
 #include "ui/render/internal/gl.h"
-#include "ui/render/internal/gl_version.h"
-#include "ui/render/internal/read_pixels.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

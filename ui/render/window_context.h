@@ -3,8 +3,8 @@
 
 #include "ui/render/context.h"
 #include "ui/render/gamepad.h"
-#include "ui/render/typing.h"
-#include "ui/render/window_place.h"
+#include "ui/render/input_state.h"
+#include "ui/render/pixel_size.h"
 
 #include <filesystem>
 #include <functional>
@@ -16,6 +16,14 @@
 struct GLFWwindow;
 
 namespace millwright::render {
+
+/// How large the window is, to be kept from one start to the next.
+struct WindowPlace {
+    PixelSize size = {1280, 800}; ///< pixels at scale 1; of a maximized window: before it became that
+    bool maximized = false;
+
+    friend bool operator==(const WindowPlace&, const WindowPlace&) = default;
+};
 
 struct WindowOptions {
     std::string title = "Millwright";

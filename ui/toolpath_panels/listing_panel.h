@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/base/text_search.h"
-#include "core/gcode/line_index.h"
+#include "core/gcode/program_text.h"
 #include "ui/panels/panel.h"
 
 #include <map>

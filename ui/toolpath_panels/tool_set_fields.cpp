@@ -1,6 +1,6 @@
 #include "ui/toolpath_panels/tool_set_fields.h"
 
-#include "core/kinematics/rotary_tilt_machine.h"
+#include "core/kinematics/rotary_tilt.h"
 #include "ui/panels/fields.h"
 
 #include <limits>

@@ -1,6 +1,6 @@
 #include "ui/viewport/pen_colors.h"
 
-#include "core/plot/pen_group.h"
+#include "core/plot/stroke_svg.h"
 
 #include <array>
 

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "ui/render/camera.h"
-#include "ui/render/view_target.h"
+#include "ui/render/framebuffer.h"
 #include "ui/viewport/internal/axis_gizmo.h"
 #include "ui/viewport/internal/desk.h"
 #include "ui/viewport/internal/legends.h"

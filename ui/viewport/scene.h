@@ -4,7 +4,7 @@
 // else w.
 #pragma once
 
-#include "core/geometry/net_symmetry.h"
+#include "core/geometry/net_editing.h"
 #include "core/geometry/solid.h"
 #include "core/geometry/surface.h"
 #include "core/grid/grid_optimiser.h"

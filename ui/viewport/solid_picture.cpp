@@ -3,9 +3,9 @@
 #include "core/base/error.h"
 #include "ui/render/camera.h"
 #include "ui/render/convert.h"
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
-#include "ui/render/view_target.h"
 
 #include <cstddef>
 

@@ -3,7 +3,6 @@
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/internal/imgui_inside.h"
-#include "ui/widgets/internal/wrap.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,6 @@
 #include "core/base/numbers.h"
 #include "core/base/text.h"
 #include "ui/widgets/internal/curve.h"
-#include "ui/widgets/internal/line_style.h"
 #include "ui/widgets/ticks.h"
 
 #include <fmt/format.h>

@@ -1,11 +1,10 @@
 #include "ui/widgets/search.h"
 
-#include "ui/widgets/fuzzy.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
-#include "ui/widgets/internal/early_text.h"
+#include "ui/widgets/internal/edit.h"
 #include "ui/widgets/internal/imgui_inside.h"
-#include "ui/widgets/internal/letters.h"
+#include "ui/widgets/matching.h"
 
 #include <fmt/format.h>
 #include <imgui_stdlib.h>

@@ -1,7 +1,7 @@
 #include "ui/widgets/sketch.h"
 
 #include "ui/widgets/internal/draw.h"
-#include "ui/widgets/internal/sideways.h"
+#include "ui/widgets/internal/scrolling.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,7 @@
 
 #include "core/base/error.h"
 #include "ui/widgets/internal/imgui_inside.h"
-#include "ui/widgets/internal/rows.h"
-#include "ui/widgets/internal/sideways.h"
+#include "ui/widgets/internal/scrolling.h"
 
 #include <algorithm>
 #include <cmath>

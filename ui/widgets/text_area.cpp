@@ -2,7 +2,6 @@
 
 #include "ui/widgets/internal/draw.h"
 #include "ui/widgets/internal/state.h"
-#include "ui/widgets/internal/text_steps.h"
 
 #include <imgui_stdlib.h>
 

@@ -2,10 +2,9 @@
 
 #include "core/base/error.h"
 #include "ui/widgets/internal/draw.h"
-#include "ui/widgets/internal/early_text.h"
+#include "ui/widgets/internal/edit.h"
 #include "ui/widgets/internal/imgui_inside.h"
 #include "ui/widgets/internal/state.h"
-#include "ui/widgets/internal/wrap.h"
 
 #include <algorithm>
 #include <cmath>

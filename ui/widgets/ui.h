@@ -244,7 +244,7 @@ public:
                                               const FieldInfo& info,
                                               const Permission& permission = {});
 
-    // ---- text (texts.cpp)
+    // ---- text (typed_text.cpp)
     std::optional<std::string> text_field(std::string_view id,
                                           std::string_view label,
                                           std::string_view value,
@@ -257,7 +257,7 @@ public:
                                             std::string_view tip = {});
     /// A line to be sent: Enter answers it, empties the field and leaves it the keyboard; while `permission`
     /// is refused, Enter shows why. Leaving the field sends nothing. The arrows bring back the lines of
-    /// `history`, oldest first; Tab completes from it and from `words` (completion.h).
+    /// `history`, oldest first; Tab completes from it and from `words` (matching.h).
     std::optional<std::string> command_line(std::string_view id,
                                             std::string_view label,
                                             std::span<const std::string> history,

@@ -2,7 +2,6 @@
 #include "core/base/text.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/internal/draw.h"
-#include "ui/widgets/internal/wrap.h"
 #include "ui/widgets/ui.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "ui/window/dialogs.h"
 
-#include "core/jobs/resume_point.h"
+#include "core/jobs/recovery.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/widgets/notices.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "ui/panels/panel.h"
-#include "ui/render/view_target.h"
+#include "ui/render/framebuffer.h"
 #include "ui/viewport/scene_view.h"
 
 #include <cstdint>

@@ -3,7 +3,6 @@
 #include "core/base/units.h"
 #include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
-#include "core/motion/taught_points_motion.h"
 #include "core/program/arm_ways.h"
 
 namespace millwright::actions {

@@ -2,7 +2,7 @@
 // the arm, how far the arm reaches, and the motion. Lengths mm, angles rad.
 #pragma once
 
-#include "core/arm/arm_reach.h"
+#include "core/arm/arm_path.h"
 #include "core/motion/trajectory.h"
 #include "core/program/program.h"
 #include "ui/viewport/arm_scene.h"

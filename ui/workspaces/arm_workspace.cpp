@@ -2,14 +2,13 @@
 
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_hold.h"
-#include "core/arm/arm_rates.h"
 #include "core/arm/arm_simulation.h"
 #include "core/arm/arm_zone.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
+#include "core/kinematics/tool_rotation.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
-#include "core/motion/taught_points_motion.h"
 #include "core/project/assets.h"
 
 #include <fmt/format.h>

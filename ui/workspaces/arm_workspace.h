@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/arm/arm_inverse.h"
-#include "core/motion/taught_points_motion.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/trajectory.h"
 #include "core/pmac/emulator/shared_memory_stream.h"
 #include "core/project/arm_input.h"
@@ -91,7 +91,7 @@ public:
     void set_goal(const Vec3& tip, const Vec3& axis);
     /// The tool as it is now; its roll, too, where one is asked for.
     void set_goal_from_tool();
-    /// The roll about the goal's axis (core/kinematics/tool_roll.h), rad; nullopt: any will do.
+    /// The roll about the goal's axis (core/kinematics/tool_rotation.h), rad; nullopt: any will do.
     void set_goal_roll(std::optional<double> roll);
     [[nodiscard]] const std::optional<double>& goal_roll() const { return goal_roll_; }
     /// Turns the goal's axis by the smallest angle into the plane of an arm with five joints.

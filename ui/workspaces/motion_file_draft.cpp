@@ -1,7 +1,7 @@
 #include "ui/workspaces/motion_file_draft.h"
 
 #include "core/arm/arm_forward.h"
-#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_motion_file.h"
 #include "core/arm/arm_path.h"
 #include "core/base/units.h"
 #include "core/motion/arm_motion.h"

@@ -2,12 +2,12 @@
 // loses no work. Kept apart from the project so that undo never moves the camera.
 #pragma once
 
-#include "core/geometry/net_symmetry.h"
+#include "core/geometry/net_editing.h"
 #include "core/plan/opened_program.h"
 #include "core/project/project.h"
 #include "ui/render/camera.h"
 #include "ui/render/view_colors.h"
-#include "ui/render/window_place.h"
+#include "ui/render/window_context.h"
 #include "ui/viewport/scene.h"
 #include "ui/widgets/notices.h"
 #include "ui/widgets/theme.h"

@@ -2,7 +2,6 @@
 // beginning at once, so that what follows a dragging hand moves, the rest of a long one in the background.
 #pragma once
 
-#include "core/cordic/loop_detector.h"
 #include "core/cordic/run_report.h"
 #include "core/cordic_control/stitch_timing.h"
 #include "ui/workspaces/latest_work.h"

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::emulators {
@@ -80,6 +81,24 @@ public:
 private:
     class Body;
     std::unique_ptr<Body> body_;
+};
+
+// An emulated Grbl at the far end of links.
+
+class GrblServer final : public EmulatorServer {
+public:
+    GrblServer(std::vector<std::unique_ptr<links::Link>> links,
+               const Clock& clock,
+               GrblEmulatorOptions options = {},
+               double speed = 1.0,
+               const links::FaultSpec& faults = {})
+        : EmulatorServer(
+              std::move(links), clock, std::make_unique<GrblEmulator>(std::move(options)), speed, faults) {}
+
+    /// Asks or changes the controller; safe from any thread.
+    template <class Use> auto with_controller(Use&& use) {
+        return with_emulator([&](Emulator& emulator) { return use(static_cast<GrblEmulator&>(emulator)); });
+    }
 };
 
 } // namespace millwright::emulators

@@ -1,6 +1,6 @@
 #include "core/exchange/internal/cad_box.h"
 
-#include "core/geometry/farthest_point.h"
+#include "core/geometry/surface_bounds.h"
 
 #include <BRepBndLib.hxx>
 #include <Bnd_Box.hxx>

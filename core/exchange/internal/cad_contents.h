@@ -3,6 +3,7 @@
 
 #include <Interface_InterfaceModel.hxx>
 #include <TopoDS_Shape.hxx>
+#include <XSControl_Reader.hxx>
 
 #include <filesystem>
 #include <string>
@@ -18,5 +19,11 @@ void expect_not_too_many(int faces, const std::filesystem::path& file);
                                       const Interface_InterfaceModel& model,
                                       const std::string& lost,
                                       const std::filesystem::path& file);
+
+// What the library leaves out of a file without a word.
+
+/// After the roots are transferred: which faces of the file became no shape, and the first fault that the
+/// library found on the way, in a sentence; empty if all did.
+[[nodiscard]] std::string lost_faces(const XSControl_Reader& reader);
 
 } // namespace millwright::exchange

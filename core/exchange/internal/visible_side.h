@@ -4,6 +4,7 @@
 #include "core/exchange/triangle_mesh.h"
 
 #include <optional>
+#include <vector>
 
 namespace millwright::exchange {
 
@@ -36,5 +37,17 @@ struct Rectangle {
 /// The least rectangle around the points as seen along the unit vector `along`, its u nearest to +x and u x v
 /// along `along`; the upright one if it is hardly larger. Nothing if they lie in a line.
 [[nodiscard]] std::optional<Rectangle> least_rectangle(const std::vector<Vec3>& points, const Vec3& along);
+
+// What surrounds a side of a mesh as it is seen from one direction: the corners of its outline, and its
+// holes.
+
+struct MeshOutlines {
+    int corners = 0;           ///< of the longest outline: places where it turns by 45 degrees or more
+    std::vector<double> holes; ///< largest width of each as it is seen, mm; the largest first
+};
+
+/// `along`: unit, the direction from which `mesh` is seen. No hole is a gap less than 0.2 mm wide, nor one
+/// behind which more of the mesh is seen, as the floor of a pocket.
+[[nodiscard]] MeshOutlines outlines_of(const TriangleMesh& mesh, const Vec3& along);
 
 } // namespace millwright::exchange

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/text.h"
-#include "core/exchange/internal/polygon_soup.h"
+#include "core/exchange/internal/mesh_readers.h"
 
 #include <charconv>
 #include <optional>

@@ -1,7 +1,7 @@
-#include "core/gcode/internal/arc_geometry.h"
 #include "core/gcode/internal/codes.h"
 #include "core/gcode/internal/compensation.h"
 #include "core/gcode/internal/motions.h"
+#include "core/gcode/internal/plane_geometry.h"
 #include "core/gcode/internal/refusal.h"
 #include "core/gcode/internal/targets.h"
 

@@ -2,10 +2,9 @@
 
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/gcode/internal/arc_geometry.h"
-#include "core/gcode/internal/compensated_corner.h"
 #include "core/gcode/internal/compensation_lookahead.h"
 #include "core/gcode/internal/expression.h"
+#include "core/gcode/internal/plane_geometry.h"
 #include "core/gcode/internal/refusal.h"
 
 #include <fmt/format.h>

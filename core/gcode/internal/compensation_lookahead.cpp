@@ -1,6 +1,6 @@
 #include "core/gcode/internal/compensation_lookahead.h"
 
-#include "core/gcode/internal/arc_geometry.h"
+#include "core/gcode/internal/plane_geometry.h"
 #include "core/gcode/internal/refusal.h"
 
 #include <cmath>

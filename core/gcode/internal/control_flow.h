@@ -10,6 +10,7 @@
 #include <array>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -138,5 +139,24 @@ private:
     std::string skipped_line_;
     std::optional<Turn> turned_;
 };
+
+// The head of a line with an O-word: its label and its keyword.
+
+/// The keyword at the cursor, which goes past it.
+[[nodiscard]] OWord read_o_keyword(Cursor& cursor);
+
+struct OHead {
+    std::string label;
+    OWord word = OWord::unknown;
+};
+
+/// The head of a line that is read over: nothing where it has no O-word, or one with a computed label.
+[[nodiscard]] std::optional<OHead> read_plain_o_head(Cursor& cursor);
+
+/// Nothing but comments stands behind the cursor. `what` is for the message. Throws Refusal.
+void expect_end_of_line(Cursor& cursor, std::string_view what = "an O-word");
+
+/// A line of nothing but %.
+[[nodiscard]] bool is_percent(std::string_view line);
 
 } // namespace millwright::gcode::internal

@@ -3,6 +3,9 @@
 
 #include "core/gcode/internal/refusal.h"
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 namespace millwright::gcode::internal {
@@ -73,5 +76,59 @@ private:
     const char* at_;
     const char* end_;
 };
+
+// Numbers as RS-274 writes them: a sign, digits, a point; no exponent, which would be an E word.
+
+/// Up to 15 digits are an exact double, and so are these powers of ten: one division then rounds correctly.
+inline constexpr std::ptrdiff_t exact_digits = 15;
+inline constexpr std::array<double, exact_digits + 1> powers_of_ten{
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+
+/// A number as almost all are: of few digits, without blanks in it. Goes past it and the blanks behind it.
+/// False, and nothing read, for anything else.
+[[nodiscard]] inline bool read_plain_number(Cursor& cursor, double& value) {
+    const char* at = cursor.position();
+    const char* const end = cursor.end();
+    const bool negative = at != end && *at == '-';
+    at += negative ? 1 : 0;
+    const char* const begin = at;
+    std::uint64_t digits = 0;
+    for (; at != end && is_digit(*at); ++at) {
+        digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+    }
+    std::ptrdiff_t count = at - begin;
+    std::ptrdiff_t decimals = 0;
+    if (at != end && *at == '.') {
+        const char* const point = ++at;
+        for (; at != end && is_digit(*at); ++at) {
+            digits = digits * 10 + static_cast<std::uint64_t>(*at - '0');
+        }
+        decimals = at - point;
+        count += decimals;
+    }
+    if (count == 0 || count > exact_digits) {
+        return false;
+    }
+    while (at != end && is_blank(*at)) {
+        ++at;
+    }
+    if (at != end && (is_digit(*at) || *at == '.')) {
+        return false;
+    }
+    const double magnitude = static_cast<double>(digits) / powers_of_ten[static_cast<std::size_t>(decimals)];
+    value = negative ? -magnitude : magnitude;
+    cursor.move_to(at);
+    return true;
+}
+
+/// The number at the cursor, which goes past it. Exactly rounded. Refuses what is none or is too large for a
+/// double.
+[[nodiscard]] double read_number(Cursor& cursor);
+
+/// Digits only; refuses anything else and more than nine digits.
+[[nodiscard]] int read_unsigned(Cursor& cursor);
+
+/// What stands behind N: 10 or 10.5. It has no meaning.
+void read_line_number(Cursor& cursor);
 
 } // namespace millwright::gcode::internal

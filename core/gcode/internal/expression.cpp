@@ -2,7 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/base/units.h"
-#include "core/gcode/internal/number.h"
+#include "core/gcode/internal/cursor.h"
 
 #include <fmt/format.h>
 

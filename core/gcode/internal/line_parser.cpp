@@ -1,8 +1,8 @@
 #include "core/gcode/internal/line_parser.h"
 
 #include "core/gcode/internal/codes.h"
+#include "core/gcode/internal/cursor.h"
 #include "core/gcode/internal/expression.h"
-#include "core/gcode/internal/number.h"
 
 #include <fmt/format.h>
 

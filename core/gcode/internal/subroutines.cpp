@@ -2,7 +2,6 @@
 #include "core/gcode/internal/control_flow.h"
 #include "core/gcode/internal/expression.h"
 #include "core/gcode/internal/line_parser.h"
-#include "core/gcode/internal/o_line.h"
 #include "core/gcode/internal/saved_modes.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 // What must and must not stand together in one line, and which motion the line makes.
 #pragma once
 
-#include "core/gcode/dialect.h"
 #include "core/gcode/internal/block.h"
 #include "core/gcode/modal_state.h"
+#include "core/gcode/reader_settings.h"
 
 namespace millwright::gcode::internal {
 

@@ -1,7 +1,6 @@
 // The sentences of EllipticAdaptation: what a round has reached, and why a grid was refused.
 #pragma once
 
-#include "core/grid/elliptic_solver.h"
 #include "core/grid/grid_optimiser.h"
 
 #include <string>

@@ -4,8 +4,8 @@
 // its slope as the nodes move: without the slope a strong weight keeps the cycles from converging.
 #pragma once
 
-#include "core/grid/elliptic_solver.h"
-#include "core/grid/internal/node_stencil.h"
+#include "core/grid/grid_optimiser.h"
+#include "core/grid/internal/node_step.h"
 
 #include <vector>
 

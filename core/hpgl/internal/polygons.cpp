@@ -2,7 +2,7 @@
 
 #include "core/base/units.h"
 #include "core/hpgl/internal/moves.h"
-#include "core/plot_strokes/hatching.h"
+#include "core/plot_strokes/region.h"
 
 #include <fmt/format.h>
 

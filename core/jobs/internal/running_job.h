@@ -5,22 +5,58 @@
 #include "core/base/error.h"
 #include "core/base/progress.h"
 #include "core/drivers/driver.h"
-#include "core/jobs/internal/path_estimate.h"
-#include "core/jobs/internal/position_envelope.h"
-#include "core/jobs/internal/shared_log.h"
+#include "core/jobs/internal/position_estimate.h"
 #include "core/jobs/job.h"
 #include "core/jobs/job_log.h"
 #include "core/jobs/job_report.h"
 #include "core/motion/trajectory.h"
 
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace millwright::jobs::internal {
+
+// The log of a running job as two threads write it: the dispatcher what has happened, the driver's thread
+// what it is about to send.
+
+class SharedLog {
+public:
+    /// `log` and `clock` must live until close(). `start`: clock time at which the job began; `blocks`: of
+    /// the job; `before`: what is known before anything has happened.
+    SharedLog(JobLog& log, const Clock& clock, double start, int blocks, LogRecord before);
+
+    /// Throws JobLogError as JobLog::write() does; then nothing more is allowed.
+    void write(const LogRecord& record);
+    /// Says in the log that blocks up to `wanted` may be sent, and as many more as are sent in a fiftieth of
+    /// a second, so that a fast stream does not write a line for each block. How many may be sent: fewer than
+    /// wanted if the log could not be written, or is closed.
+    [[nodiscard]] int allow(int wanted) noexcept;
+    /// Throws what kept allow() from writing.
+    void rethrow_failure() const;
+    /// Nothing is written any more.
+    void close();
+
+private:
+    [[nodiscard]] int sent_soon(int wanted, double now);
+
+    mutable std::mutex mutex_; ///< guards all below
+    JobLog& log_;
+    const Clock& clock_;
+    double start_;
+    int blocks_;
+    LogRecord last_;
+    bool closed_ = false;
+    int allowed_ = 0;
+    double since_ = 0.0; ///< clock time from which the rate is taken
+    int wanted_then_ = 0;
+    std::exception_ptr failure_;
+};
 
 inline constexpr double poll_time = 0.02; // s: a fifth of what a person notices
 

@@ -50,4 +50,26 @@ struct PlannedMove {
                                           const kinematics::AxisPositions& to,
                                           double path_acceleration = std::numeric_limits<double>::infinity());
 
+// The speed along a block at which the tool tip goes along the part at a given feed: |J q'| s' = feed, with
+// the Jacobian J of the tip and the direction q' of the axes.
+
+struct StraightWay {
+    const kinematics::AxisPositions& from;
+    const kinematics::AxisPositions& to;
+    double length = 0.0; ///< scaled
+};
+
+/// Speeds that never take the tip above `feed` (mm/s), in so many steps that most of the way comes close to
+/// it. Where the tip hardly moves they are infinite.
+[[nodiscard]] std::vector<FeedStep>
+part_speeds(const Mechanism& machine, const StraightWay& way, double feed);
+
+// The speed through a corner that is not rounded.
+
+/// By the settings' rule for corners; infinite where the way goes straight on.
+[[nodiscard]] double corner_speed(const Mechanism& machine,
+                                  const PlannerSettings& settings,
+                                  const PlannedMove& before,
+                                  const PlannedMove& after);
+
 } // namespace millwright::motion::internal

@@ -1,5 +1,5 @@
-// Limits along the way, made to hold for a filtered motion too (timing.h): a limit of a stretch is imposed on
-// the unfiltered motion already before the stretch and still after it.
+// Limits along the way, made to hold for a filtered motion too (trajectory.h): a limit of a stretch is
+// imposed on the unfiltered motion already before the stretch and still after it.
 #pragma once
 
 #include "core/motion/path.h"

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/motion/internal/phases.h"
 #include "core/motion/internal/speed_segments.h"
 
 #include <algorithm>

@@ -2,13 +2,11 @@
 
 #include "core/base/counted.h"
 #include "core/base/units.h"
-#include "core/plot/carving/internal/axis_trails.h"
 #include "core/plot/carving/internal/carving_outlines.h"
 #include "core/plot/carving/internal/carving_path.h"
-#include "core/plot/carving/internal/path_deviation.h"
 #include "core/plot/carving/medial_axis.h"
 #include "core/plot/compensation.h"
-#include "core/plot/path_bound.h"
+#include "core/plot/cut_path.h"
 
 #include <fmt/format.h>
 

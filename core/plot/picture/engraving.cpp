@@ -1,7 +1,7 @@
 #include "core/plot/picture/engraving.h"
 
 #include "core/base/units.h"
-#include "core/plot/path_bound.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/picture/internal/checks.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 #include "core/base/progress.h"
 #include "core/plot/cut_path.h"
 #include "core/plot/picture/height_field.h"
-#include "core/plot/picture/png_writer.h"
+#include "core/plot/picture/picture.h"
 #include "core/plot/picture/tool_tip.h"
 
 #include <map>

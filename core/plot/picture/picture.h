@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -88,5 +89,50 @@ void expect_gray_steps(int steps);
 [[nodiscard]] ReadPicture read_picture_file(const std::filesystem::path& file,
                                             const PictureSettings& settings = {},
                                             const Progress& progress = Progress());
+
+// A picture with the pixels that its file has, for people to look at: what is cut has square ones.
+
+struct FilePixels {
+    Picture picture;
+    /// Of a pixel of the file as it is seen, where a square one of what is cut has 1.
+    double pixel_width = 1.0, pixel_height = 1.0;
+};
+
+/// As read_picture_file(), but pixels that are not square stay so, and the aspect of `settings` changes
+/// nothing.
+[[nodiscard]] FilePixels read_file_pixels(const std::filesystem::path& file,
+                                          const PictureSettings& settings,
+                                          const Progress& progress = Progress());
+
+// How large a picture is on the work.
+
+/// The first of these that is given counts; without any the file's own density, else 0.26 mm per pixel as in
+/// the KMITL master's thesis of 2006.
+struct PictureSize {
+    std::optional<double> width = {};         ///< of the picture, or of its region, mm
+    std::optional<double> dots_per_inch = {}; ///< pixels of the file
+    std::optional<double> pixel = {};         ///< width of a pixel of the file, mm
+
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+/// Width of a pixel of `picture`, mm; one that is the mean of several of its file is as wide as they are.
+/// Throws Error for a size that is not above 0 and finite.
+[[nodiscard]] double pixel_pitch(const PictureSize& size, const Picture& picture);
+
+// Gray pictures as PNG files: what previews are saved as.
+
+/// Rows from the top, each from the left.
+struct GrayImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> pixels; ///< 0 black, 255 white
+
+    friend bool operator==(const GrayImage&, const GrayImage&) = default;
+};
+
+/// The bytes of a PNG of 8 bits per pixel. Throws Defect unless there are as many pixels as the size says, at
+/// least one.
+[[nodiscard]] std::string png_bytes(const GrayImage& image);
 
 } // namespace millwright::plot

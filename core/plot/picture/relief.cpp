@@ -1,22 +1,97 @@
 #include "core/plot/picture/relief.h"
 
 #include "core/base/parallel.h"
-#include "core/plot/path_bound.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/picture/internal/checks.h"
-#include "core/plot/picture/internal/row_moves.h"
 #include "core/plot/picture/internal/tip_surface.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace millwright::plot {
 namespace {
 
+// The moves of one row of a relief. mm.
+
+struct Node {
+    double x = 0.0;
+    double z = 0.0;
+};
+
+/// A node for each height, `pitch` apart from x = 0 on, higher by `allowance`.
+std::vector<Node> nodes_of(const std::vector<float>& heights, double pitch, double allowance) {
+    std::vector<Node> nodes;
+    nodes.reserve(heights.size());
+    for (std::size_t j = 0; j < heights.size(); ++j) {
+        nodes.push_back({static_cast<double>(j) * pitch, static_cast<double>(heights[j]) + allowance});
+    }
+    return nodes;
+}
+
+/// Some of the nodes, with both ends, in the order given (which may run either way): straight moves between
+/// them are nowhere below those between all, and nowhere above them by more than `tolerance`.
+// From the last node that is kept, moves to later ones are possible as long as their slope passes above every
+// node between, and not too far.
+std::vector<Node> merged(const std::vector<Node>& nodes, double tolerance) {
+    constexpr double rounding = 5e-7; // of heights that are floats: equal slopes are equal
+    std::vector<Node> kept = {nodes.front()};
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    for (std::size_t n = 1; n < nodes.size(); ++n) {
+        const Node& from = kept.back();
+        const double way = std::abs(nodes[n].x - from.x);
+        const double slope = (nodes[n].z - from.z) / way;
+        if (slope < least || slope > most) {
+            kept.push_back(nodes[n - 1]);
+            least = -std::numeric_limits<double>::infinity();
+            most = std::numeric_limits<double>::infinity();
+            --n;
+            continue;
+        }
+        least = std::max(least, slope - rounding / way);
+        most = std::min(most, (nodes[n].z + tolerance + rounding - from.z) / way);
+    }
+    if (nodes.size() > 1) {
+        kept.push_back(nodes.back());
+    }
+    return kept;
+}
+
+/// The parts of the row where something below `ceiling` is to be cut, each with its neighbours on both sides;
+/// parts nearer to each other than `nearest` are one.
+std::vector<std::vector<Node>> runs_below(const std::vector<Node>& nodes, double ceiling, double nearest) {
+    struct Range {
+        std::size_t first = 0;
+        std::size_t last = 0;
+    };
+    std::vector<Range> ranges;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+        if (!(nodes[n].z < ceiling)) {
+            continue;
+        }
+        const Range here{n == 0 ? 0 : n - 1, std::min(n + 1, nodes.size() - 1)};
+        const bool near =
+            !ranges.empty() && std::abs(nodes[here.first].x - nodes[ranges.back().last].x) < nearest;
+        if (near) {
+            ranges.back().last = here.last;
+        } else {
+            ranges.push_back(here);
+        }
+    }
+    std::vector<std::vector<Node>> runs;
+    for (const Range& range : ranges) {
+        runs.emplace_back(nodes.begin() + static_cast<std::ptrdiff_t>(range.first),
+                          nodes.begin() + static_cast<std::ptrdiff_t>(range.last) + 1);
+    }
+    return runs;
+}
+
 using internal::check_above_zero;
 using internal::check_not_below_zero;
-using internal::Node;
 using internal::TipSurface;
 
 constexpr double most_points = 1e8;
@@ -87,14 +162,14 @@ public:
         const double width = std::max(2.0 * radius(settings_.tip), field_.pitch);
         const std::vector<double> rows = rows_of(field_, roughing.step_over.value_or(width / 2.0));
         each_row(surface_, rows, progress, [&](std::size_t n, std::vector<float>& heights) {
-            std::vector<Node> nodes = internal::nodes_of(heights, field_.pitch, roughing.allowance);
+            std::vector<Node> nodes = nodes_of(heights, field_.pitch, roughing.allowance);
             for (Node& node : nodes) {
                 node.z = std::max(node.z, floor);
             }
             if (n % 2 != 0) {
                 std::ranges::reverse(nodes);
             }
-            for (const auto& run : internal::runs_below(nodes, ceiling, 2.0 * settings_.safe_height)) {
+            for (const auto& run : runs_below(nodes, ceiling, 2.0 * settings_.safe_height)) {
                 lift();
                 cut_row(run, rows[n]);
             }
@@ -105,7 +180,7 @@ public:
     void finish(const Progress& progress) {
         const std::vector<double> rows = rows_of(field_, settings_.step_over.value_or(field_.pitch));
         each_row(surface_, rows, progress, [&](std::size_t n, std::vector<float>& heights) {
-            std::vector<Node> nodes = internal::nodes_of(heights, field_.pitch, 0.0);
+            std::vector<Node> nodes = nodes_of(heights, field_.pitch, 0.0);
             const bool backward = n % 2 != 0;
             if (backward) {
                 std::ranges::reverse(nodes);
@@ -136,8 +211,7 @@ private:
     }
 
     void cut_row(const std::vector<Node>& nodes, double y) {
-        const std::vector<Node> kept =
-            settings_.merge ? internal::merged(nodes, settings_.merge_tolerance) : nodes;
+        const std::vector<Node> kept = settings_.merge ? merged(nodes, settings_.merge_tolerance) : nodes;
         const auto cut = [&](const Node& node) { add({node.x, y, node.z}, settings_.cutting, CutMove::cut); };
         if (up()) {
             add({kept.front().x, y, settings_.safe_height}, 0.0, CutMove::rapid);

@@ -2,7 +2,7 @@
 
 #include "core/base/counted.h"
 #include "core/base/error.h"
-#include "core/plot/tab_width.h"
+#include "core/plot/cut_path.h"
 
 #include <fmt/format.h>
 

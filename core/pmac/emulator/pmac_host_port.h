@@ -2,7 +2,7 @@
 // Tau, PMAC User Manual, and Saengsasri, Nittayachin 1996 (KMITL). docs/reference/pmac.md.
 #pragma once
 
-#include "core/links/port_registers.h"
+#include "core/links/host_port_link.h"
 #include "core/pmac/emulator/pmac_emulator.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/geometry/closest_point.h"
+#include "core/geometry/net_editing.h"
 #include "core/geometry/trim.h"
-#include "core/geometry/turned.h"
 #include "core/region/region_kind.h"
 
 #include <memory>

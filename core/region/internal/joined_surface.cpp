@@ -1,6 +1,6 @@
 #include "core/region/internal/joined_surface.h"
 
-#include "core/geometry/turned.h"
+#include "core/geometry/net_editing.h"
 
 #include <algorithm>
 #include <array>

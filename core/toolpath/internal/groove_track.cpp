@@ -4,7 +4,7 @@
 #include "core/base/numbers.h"
 #include "core/toolpath/contact_shape.h"
 #include "core/toolpath/internal/contact_point.h"
-#include "core/toolpath/lean.h"
+#include "core/toolpath/tool.h"
 
 #include <fmt/format.h>
 

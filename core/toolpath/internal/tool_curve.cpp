@@ -3,14 +3,118 @@
 #include "core/base/numbers.h"
 #include "core/kinematics/forward.h"
 #include "core/toolpath/cutter.h"
-#include "core/toolpath/fixed_axis.h"
 #include "core/toolpath/internal/largest_angle.h"
+#include "core/toolpath/tool_poses.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace millwright::toolpath {
+
+namespace {
+
+using Matrix2 = Eigen::Matrix2d;
+
+/// slope . x + x^T bend x / 2 in the axes of the bend, of which the first is the lower one.
+struct Quadratic {
+    Vec2 slope, bend;
+
+    [[nodiscard]] double at(const Vec2& x) const {
+        return slope.dot(x) + 0.5 * (bend.x() * square(x.x()) + bend.y() * square(x.y()));
+    }
+    /// Where the slope ends if the bend were stronger by `more`.
+    [[nodiscard]] Vec2 level(double more) const {
+        return {-slope.x() / (bend.x() + more), -slope.y() / (bend.y() + more)};
+    }
+};
+
+Quadratic in_its_axes(const Vec2& slope, const Matrix2& bend) {
+    const double mean = 0.5 * (bend(0, 0) + bend(1, 1));
+    const double half = 0.5 * (bend(0, 0) - bend(1, 1));
+    const double apart = std::hypot(half, bend(0, 1));
+    const double angle = 0.5 * std::atan2(bend(0, 1), half); // of the higher one
+    const Vec2 high(std::cos(angle), std::sin(angle));
+    const Vec2 low(-high.y(), high.x());
+    return {{slope.dot(low), slope.dot(high)}, {mean - apart, mean + apart}};
+}
+
+/// Where on the circle the slope has no part along the lower axis, so that both sides of it are alike.
+double least_beside(const Quadratic& of, double radius) {
+    const double x = -of.slope.y() / (of.bend.y() - of.bend.x());
+    return of.at({std::sqrt(std::max(0.0, square(radius) - square(x))), x});
+}
+
+/// The least value within `radius` of the origin (the trust region of two variables: Moré and Sorensen,
+/// Computing a Trust Region Step, 1983): Newton's iteration on 1 / |x|, which comes from one side.
+double least_within(const Quadratic& of, double radius) {
+    if (of.bend.x() > 0.0 && of.level(0.0).squaredNorm() <= square(radius)) {
+        return of.at(of.level(0.0));
+    }
+    double more = std::max(
+        {0.0, std::abs(of.slope.x()) / radius - of.bend.x(), std::abs(of.slope.y()) / radius - of.bend.y()});
+    if (!(of.bend.x() + more > 0.0)) {
+        return of.bend.y() > of.bend.x() ? least_beside(of, radius) : of.at({radius, 0.0});
+    }
+    constexpr int most_steps = 30;
+    constexpr double close = 1e-10; // of the radius
+    for (int n = 0; n < most_steps; ++n) {
+        const Vec2 x = of.level(more);
+        const double length = x.norm();
+        if (!(length > (1.0 + close) * radius)) {
+            break;
+        }
+        const double shrinks =
+            square(x.x()) / (of.bend.x() + more) + square(x.y()) / (of.bend.y() + more); // -|x| d|x| / d more
+        more += square(length) / shrinks * (length / radius - 1.0);
+    }
+    const Vec2 x = of.level(more); // along the lower axis it is not well known where that has hardly a slope
+    const double y = std::clamp(x.y(), -radius, radius);
+    return of.at({std::copysign(std::sqrt(square(radius) - square(y)), x.x()), y});
+}
+
+} // namespace
+
+CutterBottom bottom_of(const Tool& tool) {
+    return tool.cutter ? CutterBottom{tool.cutter->shape().flat, tool.cutter->shape().corner}
+                       : CutterBottom{};
+}
+
+Mat3 bend_of(const geometry::SurfaceDerivatives& at, const Vec3& normal, double away) {
+    const double E = at.du.squaredNorm(), F = at.du.dot(at.dv), G = at.dv.squaredNorm();
+    const double determinant = E * G - F * F;
+    constexpr double parallel = 1e-12; // square of the sine of the tangents' angle
+    if (!(determinant > parallel * square(E + G))) {
+        return Mat3::Zero();
+    }
+    const Vec3 u = (G * at.du - F * at.dv) / determinant; // dual to the tangents
+    const Vec3 v = (E * at.dv - F * at.du) / determinant;
+    const Mat3 shear = u * v.transpose();
+    const Mat3 bend = at.duu.dot(normal) * u * u.transpose() +
+                      at.duv.dot(normal) * (shear + shear.transpose()) +
+                      at.dvv.dot(normal) * v * v.transpose();
+    constexpr double nearly_closed = 0.9; // of the radius of a hollow
+    const double sum = bend.trace();      // of both curvatures; the third eigenvalue is 0
+    const double most = 0.5 * (sum + std::sqrt(std::max(0.0, 2.0 * bend.squaredNorm() - square(sum))));
+    const double within = most > 0.0 ? std::min(away, nearly_closed / most) : away;
+    return within > 0.0 ? Mat3(bend * (Mat3::Identity() - within * bend).inverse()) : bend;
+}
+
+double least_height(const Vec3& middle, const Vec3& axis, double radius, const BentGround& ground) {
+    const Vec3 e1 = axis.unitOrthogonal();
+    const Vec3 e2 = axis.cross(e1);
+    const Vec3 from = middle - ground.point;
+    const Vec3 falls = ground.bend * from;
+    const Vec3 rises = ground.normal - falls;
+    const double height = from.dot(ground.normal) - 0.5 * from.dot(falls);
+    if (!(radius > 0.0)) {
+        return height;
+    }
+    const double mixed = -e1.dot(ground.bend * e2);
+    Matrix2 bend;
+    bend << -e1.dot(ground.bend * e1), mixed, mixed, -e2.dot(ground.bend * e2);
+    return height + least_within(in_its_axes({rises.dot(e1), rises.dot(e2)}, bend), radius);
+}
 
 namespace {
 

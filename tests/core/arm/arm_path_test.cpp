@@ -3,7 +3,7 @@
 #include "core/arm/arm_forward.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/tool_roll.h"
+#include "core/kinematics/tool_rotation.h"
 #include "tests/support/arm_ways.h"
 #include "tests/support/arms.h"
 

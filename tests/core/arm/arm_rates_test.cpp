@@ -1,6 +1,5 @@
-#include "core/arm/arm_rates.h"
-
 #include "core/arm/arm_forward.h"
+#include "core/arm/arm_hold.h"
 #include "core/base/error.h"
 #include "tests/support/arms.h"
 

@@ -1,6 +1,5 @@
-#include "core/arm/arm_reach.h"
-
 #include "core/arm/arm_forward.h"
+#include "core/arm/arm_path.h"
 #include "core/base/units.h"
 #include "tests/support/arm_ways.h"
 #include "tests/support/arms.h"

@@ -1,7 +1,7 @@
 #include "core/arm/arm_simulation.h"
 
 #include "core/arm/arm_forward.h"
-#include "core/arm/arm_motion_ways.h"
+#include "core/arm/arm_motion_file.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "tests/support/arms.h"

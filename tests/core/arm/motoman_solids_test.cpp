@@ -1,5 +1,4 @@
-#include "core/arm/motoman_solids.h"
-
+#include "core/arm/arm_bodies.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "tests/support/arms.h"

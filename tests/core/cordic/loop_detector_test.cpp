@@ -1,6 +1,5 @@
-#include "core/cordic/loop_detector.h"
-
 #include "core/cordic/assembler.h"
+#include "core/cordic/run_report.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "core/base/files.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/microprogram.h"
-#include "core/cordic_control/input_changes.h"
+#include "core/cordic_control/plc.h"
 #include "core/cordic_control/plc_assembler.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/cordic_control/input_changes.h"
+#include "core/cordic_control/plc.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/cordic/assembler.h"
 #include "core/cordic/microcode.h"
-#include "core/cordic_control/input_changes.h"
+#include "core/cordic_control/plc.h"
 #include "tests/core/cordic/wrong_text.h"
 
 #include <gmock/gmock.h>

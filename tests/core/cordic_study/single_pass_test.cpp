@@ -3,7 +3,6 @@
 #include "core/base/error.h"
 #include "core/cordic/arithmetic.h"
 #include "core/cordic_study/accuracy.h"
-#include "core/cordic_study/unturned_rotation.h"
 #include "tests/core/cordic/angles.h"
 
 #include <gmock/gmock.h>

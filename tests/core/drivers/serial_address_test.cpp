@@ -1,12 +1,11 @@
 // Serial ports as people write them, and the settings that the system gets.
-#include "core/links/serial_address.h"
-
 #include "core/drivers/points/points_driver.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/emulators/table/table_emulator.h"
 #include "core/jobs/point_job.h"
 #include "core/links/link.h"
 #include "core/links/pseudo_terminal.h"
+#include "core/links/serial_link.h"
 #include "tests/support/machines.h"
 #include "tests/support/reason.h"
 

@@ -6,7 +6,7 @@
 #include "core/base/error.h"
 #include "core/drivers/driver_status.h"
 #include "core/drivers/internal/send_window.h"
-#include "core/links/faults.h"
+#include "core/links/fault_link.h"
 
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 // The time of an emulated controller that waits for its host, by a clock that the test winds.
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "core/exchange/internal/mesh_outlines.h"
-
 #include "core/base/error.h"
+#include "core/exchange/internal/visible_side.h"
 #include "core/exchange/patch_fit.h"
 
 #include <gmock/gmock.h>

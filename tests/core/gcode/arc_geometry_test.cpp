@@ -1,7 +1,6 @@
-#include "core/gcode/internal/arc_geometry.h"
-
 #include "core/base/units.h"
 #include "core/gcode/canon.h"
+#include "core/gcode/internal/plane_geometry.h"
 #include "core/gcode/internal/refusal.h"
 #include "tests/support/without_traps.h"
 

@@ -1,9 +1,7 @@
-#include "core/gcode/line_ends.h"
-
 #include "core/base/files.h"
 #include "core/gcode/canon_printer.h"
 #include "core/gcode/interpreter.h"
-#include "core/gcode/line_index.h"
+#include "core/gcode/program_text.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>

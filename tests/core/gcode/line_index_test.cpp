@@ -1,6 +1,5 @@
-#include "core/gcode/line_index.h"
-
 #include "core/base/error.h"
+#include "core/gcode/program_text.h"
 
 #include <gtest/gtest.h>
 

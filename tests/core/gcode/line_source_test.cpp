@@ -1,6 +1,5 @@
-#include "core/gcode/internal/line_source.h"
-
 #include "core/base/files.h"
+#include "core/gcode/internal/source_files.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "core/gcode/internal/number.h"
+#include "core/gcode/internal/cursor.h"
 
 #include <gtest/gtest.h>
 

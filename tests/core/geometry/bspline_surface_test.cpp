@@ -2,10 +2,10 @@
 
 #include "core/base/error.h"
 #include "core/geometry/closest_point.h"
-#include "core/geometry/distance_bounds.h"
+#include "core/geometry/net_editing.h"
 #include "core/geometry/patch_refinement.h"
 #include "core/geometry/presets.h"
-#include "core/geometry/turned.h"
+#include "core/geometry/surface_bounds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
-#include "core/geometry/closed_solid.h"
-
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/geometry/glb.h"
+#include "core/geometry/solid.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-#include "core/geometry/curvature.h"
-
 #include "core/geometry/presets.h"
+#include "core/geometry/surface_point.h"
 
 #include <gtest/gtest.h>
 

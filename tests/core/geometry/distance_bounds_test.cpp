@@ -1,9 +1,8 @@
-#include "core/geometry/distance_bounds.h"
-
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/geometry/closest_point.h"
 #include "core/geometry/presets.h"
+#include "core/geometry/surface_bounds.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>

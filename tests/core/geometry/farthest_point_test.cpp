@@ -1,6 +1,5 @@
-#include "core/geometry/farthest_point.h"
-
 #include "core/geometry/presets.h"
+#include "core/geometry/surface_bounds.h"
 
 #include <gtest/gtest.h>
 

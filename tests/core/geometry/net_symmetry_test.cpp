@@ -1,4 +1,4 @@
-#include "core/geometry/net_symmetry.h"
+#include "core/geometry/net_editing.h"
 
 #include <gtest/gtest.h>
 

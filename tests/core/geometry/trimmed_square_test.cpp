@@ -1,6 +1,5 @@
-#include "core/geometry/trimmed_square.h"
-
 #include "core/base/error.h"
+#include "core/geometry/mesh.h"
 #include "tests/support/trim_loops.h"
 
 #include <gtest/gtest.h>

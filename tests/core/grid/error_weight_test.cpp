@@ -1,7 +1,6 @@
-#include "core/grid/error_weight.h"
-
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/grid/weight.h"
 #include "tests/core/grid/short_names.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/spike_error_model.h"

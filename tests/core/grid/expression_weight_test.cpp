@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/geometry/curvature.h"
 #include "core/geometry/presets.h"
+#include "core/geometry/surface_point.h"
 #include "tests/support/lens_face.h"
 #include "tests/support/test_weights.h"
 #include "tests/support/without_traps.h"

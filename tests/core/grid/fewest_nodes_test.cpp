@@ -1,7 +1,7 @@
 #include "core/grid/fewest_nodes.h"
 
 #include "core/base/error.h"
-#include "core/grid/lattice.h"
+#include "core/grid/track.h"
 #include "core/grid/track_path.h"
 #include "tests/support/closed_form_error_model.h"
 #include "tests/support/random_error_model.h"

@@ -2,7 +2,6 @@
 #include "core/grid/discrete_minimiser.h"
 #include "core/grid/jacobi_newton.h"
 #include "core/grid/multigrid.h"
-#include "core/grid/multigrid_then_minimiser.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/test_weights.h"
 

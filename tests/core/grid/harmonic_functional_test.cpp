@@ -1,5 +1,4 @@
-#include "core/grid/harmonic_functional.h"
-
+#include "core/grid/corner_functionals.h"
 #include "core/grid/discrete_minimiser.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/test_weights.h"

@@ -1,6 +1,5 @@
-#include "core/grid/lattice.h"
-
 #include "core/base/error.h"
+#include "core/grid/track.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,3 @@
-#include "core/grid/multigrid_then_minimiser.h"
-
 #include "core/grid/multigrid.h"
 #include "tests/support/grid_arrays.h"
 #include "tests/support/test_weights.h"

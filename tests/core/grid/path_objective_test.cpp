@@ -1,5 +1,3 @@
-#include "core/grid/path_objective.h"
-
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/grid/path_descent.h"

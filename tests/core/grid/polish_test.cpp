@@ -1,6 +1,5 @@
-#include "core/grid/polish.h"
-
 #include "core/base/error.h"
+#include "core/grid/track_path.h"
 #include "tests/support/random_error_model.h"
 #include "tests/support/spike_error_model.h"
 

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/geometry/presets.h"
 #include "core/grid/elliptic_adaptation.h"
-#include "core/grid/error_weight.h"
+#include "core/grid/weight.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>

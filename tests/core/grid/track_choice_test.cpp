@@ -1,6 +1,5 @@
-#include "core/grid/track_choice.h"
-
 #include "core/base/error.h"
+#include "core/grid/track_candidates.h"
 #include "tests/core/grid/short_names.h"
 
 #include <gtest/gtest.h>

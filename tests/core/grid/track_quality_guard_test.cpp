@@ -1,5 +1,4 @@
-#include "core/grid/track_quality_guard.h"
-
+#include "core/grid/quality_guard.h"
 #include "tests/support/spike_error_model.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
-#include "core/jobs/feed_check.h"
-
 #include "core/base/error.h"
+#include "core/jobs/program_check.h"
 #include "tests/support/jobs.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // A table that plays a plot cuts what the plot's program cuts.
 #include "core/jobs/point_job.h"
 
-#include "core/plot/decode_path.h"
+#include "core/plot/decode.h"
 #include "core/program/program.h"
 #include "tests/support/machines.h"
 

@@ -1,7 +1,6 @@
-#include "core/jobs/resume_point.h"
-
 #include "core/base/files.h"
 #include "core/jobs/job.h"
+#include "core/jobs/recovery.h"
 #include "core/jobs/run_from_line.h"
 #include "tests/support/scratch_folder.h"
 

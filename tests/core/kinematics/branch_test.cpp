@@ -1,6 +1,5 @@
-#include "core/kinematics/branch.h"
-
 #include "core/base/error.h"
+#include "core/kinematics/inverse.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "tests/support/machines.h"

@@ -1,9 +1,8 @@
-#include "core/kinematics/rotary_tilt_machine.h"
-
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
+#include "core/kinematics/rotary_tilt.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>

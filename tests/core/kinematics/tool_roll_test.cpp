@@ -1,6 +1,5 @@
-#include "core/kinematics/tool_roll.h"
-
 #include "core/base/units.h"
+#include "core/kinematics/tool_rotation.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // What links hold of bytes that are not taken.
 #include "core/links/file_link.h"
 #include "core/links/pseudo_terminal.h"
-#include "core/links/tcp_link.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/core/links/reading.h"
 
 #include <fcntl.h>

@@ -1,6 +1,5 @@
-#include "core/links/faults.h"
-
 #include "core/base/error.h"
+#include "core/links/fault_link.h"
 #include "tests/support/without_traps.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-#include "core/links/serial_ports.h"
-
+#include "core/links/serial_link.h"
 #include "tests/support/scratch_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,5 @@
-#include "core/links/tcp_link.h"
-
 #include "core/base/error.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/core/links/reading.h"
 
 #include <gmock/gmock.h>

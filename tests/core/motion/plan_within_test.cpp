@@ -1,6 +1,5 @@
-#include "core/motion/plan_within.h"
-
 #include "core/base/error.h"
+#include "core/motion/planner.h"
 #include "tests/core/motion/listing_machine.h"
 #include "tests/support/motions.h"
 #include "tests/support/samples.h"

@@ -1,10 +1,9 @@
-#include "core/motion/taught_points_motion.h"
-
 #include "core/arm/arm_file.h"
 #include "core/arm/arm_forward.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,5 @@
-#include "core/motion/timing.h"
-
 #include "core/base/error.h"
+#include "core/motion/trajectory.h"
 
 #include <gtest/gtest.h>
 

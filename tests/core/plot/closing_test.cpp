@@ -1,5 +1,3 @@
-#include "core/plot/closing.h"
-
 #include "core/base/error.h"
 #include "core/plot/linking.h"
 

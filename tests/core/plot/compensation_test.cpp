@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/plot/unreachable_regions.h"
 #include "tests/core/plot_strokes/circle_ring.h"
 #include "tests/support/without_traps.h"
 

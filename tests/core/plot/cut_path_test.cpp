@@ -2,7 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/hpgl/reader.h"
-#include "core/plot/path_bound.h"
 #include "tests/core/hpgl/thesis_drawings.h"
 #include "tests/support/without_traps.h"
 

@@ -2,8 +2,6 @@
 
 #include "core/base/error.h"
 #include "core/base/units.h"
-#include "core/plot/decode_path.h"
-#include "core/plot/decode_within.h"
 #include "core/plot/point_file.h"
 #include "tests/support/without_traps.h"
 

@@ -1,6 +1,4 @@
 // Points of a table as what they cut.
-#include "core/plot/point_path.h"
-
 #include "core/plot/decode.h"
 #include "core/plot/point_file.h"
 

@@ -1,7 +1,6 @@
 #include "core/plot/stroke_svg.h"
 
 #include "core/base/error.h"
-#include "core/plot/pen_group.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/plot/tab_width.h"
+#include "core/plot/cut_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
-#include "core/plot_strokes/hatching.h"
-
 #include "core/base/error.h"
 #include "core/base/units.h"
+#include "core/plot_strokes/region.h"
 #include "tests/core/plot_strokes/circle_ring.h"
 #include "tests/support/without_traps.h"
 

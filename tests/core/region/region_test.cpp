@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/geometry/net_editing.h"
 #include "core/geometry/presets.h"
-#include "core/geometry/turned.h"
 
 #include <gtest/gtest.h>
 

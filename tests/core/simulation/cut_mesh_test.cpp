@@ -1,7 +1,7 @@
 #include "core/simulation/cut_mesh.h"
 
 #include "core/base/units.h"
-#include "core/geometry/closed_solid.h"
+#include "core/geometry/solid.h"
 #include "core/simulation/removal.h"
 #include "core/toolpath/cutter.h"
 

@@ -1,6 +1,5 @@
-#include "core/toolpath/internal/cutter_bottom.h"
-
 #include "core/base/units.h"
+#include "core/toolpath/internal/tool_curve.h"
 #include "tests/support/cutters.h"
 #include "tests/support/paths.h"
 

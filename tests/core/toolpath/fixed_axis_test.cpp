@@ -1,8 +1,7 @@
-#include "core/toolpath/fixed_axis.h"
-
 #include "core/base/error.h"
 #include "core/geometry/presets.h"
 #include "core/toolpath/kinematic_error.h"
+#include "core/toolpath/tool_poses.h"
 #include "tests/support/machines.h"
 #include "tests/support/paths.h"
 

@@ -1,4 +1,4 @@
-#include "core/toolpath/lean.h"
+#include "core/toolpath/tool.h"
 
 #include <gtest/gtest.h>
 

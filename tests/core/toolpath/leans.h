@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/base/units.h"
-#include "core/toolpath/lean.h"
+#include "core/toolpath/tool.h"
 #include "tests/support/machines.h"
 
 #include <cmath>

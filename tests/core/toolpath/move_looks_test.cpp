@@ -1,4 +1,4 @@
-#include "core/toolpath/internal/move_looks.h"
+#include "core/toolpath/internal/move_error.h"
 
 #include <gtest/gtest.h>
 

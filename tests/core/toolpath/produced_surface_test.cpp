@@ -1,5 +1,3 @@
-#include "core/toolpath/produced_surface.h"
-
 #include "core/base/error.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "core/toolpath/zigzag.h"

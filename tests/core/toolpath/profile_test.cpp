@@ -1,7 +1,6 @@
 #include "core/toolpath/profile.h"
 
 #include "core/base/error.h"
-#include "core/toolpath/internal/body_height.h"
 #include "tests/support/cutters.h"
 #include "tests/support/machines.h"
 

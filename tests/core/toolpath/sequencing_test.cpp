@@ -1,7 +1,6 @@
 #include "core/toolpath/sequencing.h"
 
 #include "core/base/error.h"
-#include "core/kinematics/branch.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
 #include "core/toolpath/zigzag.h"

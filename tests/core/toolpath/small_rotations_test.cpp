@@ -1,5 +1,3 @@
-#include "core/toolpath/small_rotations.h"
-
 #include "core/base/error.h"
 #include "core/base/units.h"
 #include "core/toolpath/error_field.h"

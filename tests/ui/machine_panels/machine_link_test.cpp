@@ -1,8 +1,8 @@
 // The Machine workspace at the other end of different links: what can be chosen, what a machine cannot do,
 // and a link that is lost and made again.
 #include "core/base/files.h"
-#include "core/emulators/grbl/grbl_server.h"
-#include "core/links/tcp_server.h"
+#include "core/emulators/grbl/grbl_emulator.h"
+#include "core/links/tcp.h"
 #include "tests/ui/person/grbl_bench.h"
 #include "tests/ui/person/person.h"
 

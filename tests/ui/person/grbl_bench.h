@@ -1,7 +1,7 @@
 // An emulated Grbl in real time at a pseudo-terminal, for a person to connect to.
 #pragma once
 
-#include "core/emulators/grbl/grbl_server.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 #include "core/links/pseudo_terminal.h"
 #include "tests/core/emulators/grbl/stored_settings.h"
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/base/clock.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/emulators/linuxcnc/linuxcnc_emulator.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/support/machines.h"
 
 #include <memory>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/base/units.h"
-#include "core/emulators/emulator_server.h"
-#include "core/links/tcp_server.h"
+#include "core/emulators/emulator.h"
+#include "core/links/tcp.h"
 #include "core/pmac/driver/pmac_settings.h"
 #include "core/pmac/emulator/pmac_emulator.h"
 

@@ -1,7 +1,7 @@
 // An emulated table that takes records at a pseudo-terminal, for a person to connect to.
 #pragma once
 
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/emulators/table/table_emulator.h"
 #include "core/links/pseudo_terminal.h"
 #include "tests/support/machines.h"

@@ -1,7 +1,7 @@
 // One file after another in the Plot & Picture workspace: what is shown, reported and sent is of the open
 // one.
 #include "core/base/files.h"
-#include "core/plot/decode_path.h"
+#include "core/plot/decode.h"
 #include "core/plot/point_file.h"
 #include "tests/ui/person/plot_person.h"
 

@@ -1,9 +1,9 @@
 // For tests of drawing: a context without display, a painter, and a scene that is measured in pixels.
 #pragma once
 
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
-#include "ui/render/view_target.h"
 
 #include <glm/ext/matrix_clip_space.hpp>
 

@@ -1,4 +1,4 @@
-#include "ui/render/typing.h"
+#include "ui/render/input_state.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

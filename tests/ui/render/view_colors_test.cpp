@@ -1,7 +1,6 @@
 #include "ui/render/view_colors.h"
 
 #include "ui/render/color_map.h"
-#include "ui/render/ink.h"
 
 #include <gtest/gtest.h>
 

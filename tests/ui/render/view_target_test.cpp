@@ -1,7 +1,6 @@
-#include "ui/render/view_target.h"
-
 #include "core/base/error.h"
 #include "tests/ui/render/clear_screen.h"
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/shader_program.h"
 

@@ -4,9 +4,9 @@
 #include "tests/ui/render/file_manager.h"
 #include "tests/ui/render/task_manager.h"
 #include "ui/render/camera.h"
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
 #include "ui/render/painter.h"
-#include "ui/render/view_target.h"
 
 #include <gtest/gtest.h>
 

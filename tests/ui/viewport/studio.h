@@ -3,8 +3,8 @@
 #pragma once
 
 #include "ui/render/camera.h"
+#include "ui/render/framebuffer.h"
 #include "ui/render/offscreen_context.h"
-#include "ui/render/view_target.h"
 #include "ui/viewport/scene_view.h"
 
 #include <epoxy/gl.h>

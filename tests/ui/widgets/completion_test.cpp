@@ -1,4 +1,4 @@
-#include "ui/widgets/completion.h"
+#include "ui/widgets/matching.h"
 
 #include <gtest/gtest.h>
 

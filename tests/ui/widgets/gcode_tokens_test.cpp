@@ -1,4 +1,4 @@
-#include "ui/widgets/gcode_tokens.h"
+#include "ui/widgets/listing.h"
 
 #include <gtest/gtest.h>
 

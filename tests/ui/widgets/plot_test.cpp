@@ -2,7 +2,7 @@
 #include "core/base/error.h"
 #include "tests/ui/stage/stage.h"
 #include "tests/ui/widgets/whole_screen.h"
-#include "ui/widgets/internal/line_style.h"
+#include "ui/widgets/internal/curve.h"
 #include "ui/widgets/widgets.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "ui/widgets/search.h"
 
 #include "tests/ui/stage/stage.h"
-#include "ui/widgets/fuzzy.h"
+#include "ui/widgets/matching.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "ui/widgets/internal/wrap.h"
+#include "ui/widgets/internal/draw.h"
 
 #include <gtest/gtest.h>
 

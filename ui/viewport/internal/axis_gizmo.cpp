@@ -1,6 +1,6 @@
 #include "ui/viewport/internal/axis_gizmo.h"
 
-#include "ui/render/ink.h"
+#include "ui/render/view_colors.h"
 #include "ui/viewport/internal/view_controls.h"
 
 #include <glm/vec2.hpp>

@@ -1,6 +1,6 @@
 #include "ui/viewport/internal/curves.h"
 
-#include "core/kinematics/branch.h"
+#include "core/kinematics/inverse.h"
 #include "core/toolpath/actual_trajectory.h"
 #include "ui/render/convert.h"
 

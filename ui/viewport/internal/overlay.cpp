@@ -4,7 +4,7 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "ui/render/convert.h"
-#include "ui/render/ink.h"
+#include "ui/render/view_colors.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/stock_sight.h"
 #include "ui/widgets/canvas.h"

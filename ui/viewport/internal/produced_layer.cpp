@@ -1,7 +1,7 @@
 // The produced surface: the true path of the tool with straight lines from track to track, as a surface with
 // its lines along u and v. Source: Parasilmongkol 1997, figure 6-17.
 
-#include "core/toolpath/produced_surface.h"
+#include "core/toolpath/actual_trajectory.h"
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"

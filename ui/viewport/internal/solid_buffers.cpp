@@ -1,6 +1,6 @@
 #include "ui/viewport/internal/solid_buffers.h"
 
-#include "core/geometry/closed_solid.h"
+#include "core/geometry/solid.h"
 #include "ui/render/convert.h"
 
 namespace millwright::viewport {

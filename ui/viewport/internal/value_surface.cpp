@@ -1,7 +1,7 @@
 #include "ui/viewport/internal/value_surface.h"
 
 #include "core/base/numbers.h"
-#include "core/geometry/trimmed_square.h"
+#include "core/geometry/mesh.h"
 #include "ui/render/convert.h"
 #include "ui/viewport/internal/net_outline.h"
 

@@ -1,7 +1,7 @@
 #include "ui/viewport/internal/view_notes.h"
 
 #include "core/base/sentences.h"
-#include "core/toolpath/produced_surface.h"
+#include "core/toolpath/actual_trajectory.h"
 #include "ui/viewport/internal/grid_lines.h"
 
 namespace millwright::viewport {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ui/render/camera.h"
-#include "ui/render/view_target.h"
+#include "ui/render/framebuffer.h"
 #include "ui/viewport/internal/overlay.h"
 #include "ui/viewport/mouse_tool.h"
 

@@ -1,14 +1,39 @@
 // The settings of an emulated Grbl and what else its EEPROM keeps: offsets, startup lines, build text.
 #pragma once
 
-#include "core/emulators/grbl/internal/build.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace millwright::emulators::internal {
+
+// What an emulated controller was built as: firmware, axes, sizes.
+
+struct Build {
+    EmulatedFirmware firmware = EmulatedFirmware::grbl;
+    std::string axes = "XYZ"; ///< letters, X Y Z first
+    bool mist = false;
+
+    [[nodiscard]] bool is(EmulatedFirmware one) const { return firmware == one; }
+    [[nodiscard]] std::size_t axis_count() const { return axes.size(); }
+    /// A, B and C count degrees.
+    [[nodiscard]] bool is_rotary(std::size_t axis) const { return axes[axis] >= 'A' && axes[axis] <= 'C'; }
+};
+
+/// Sizes as the firmware ships.
+struct Sizes {
+    int planner_blocks = 15;  ///< that can be in use
+    std::size_t segments = 5; ///< that are ready for the motors
+    int receive_bytes = 128;
+    std::size_t longest_line = 79;
+};
+
+[[nodiscard]] Sizes sizes_of(EmulatedFirmware firmware);
 
 /// mm, of rotary axes degrees: X, Y, Z and what follows; those that the machine lacks stay 0.
 using Axes = std::array<double, 6>;
@@ -65,5 +90,11 @@ struct Eeprom {
 /// line for a line it does not know; what is missing has its default. Without a file: the defaults.
 [[nodiscard]] Eeprom read_eeprom(const std::filesystem::path& file, const Build& build);
 void write_eeprom(const std::filesystem::path& file, const Eeprom& eeprom);
+
+// The bytes in which an AVR keeps the settings of an emulated Grbl, and how long it writes at them.
+
+/// The times, s, in which a write that turns `before` into `after` has interrupts off: one per changed byte,
+/// but for the last byte of a record, which is not waited for.
+[[nodiscard]] std::vector<double> eeprom_pauses(const Eeprom& before, const Eeprom& after);
 
 } // namespace millwright::emulators::internal

@@ -9,8 +9,6 @@
 #include "core/emulators/grbl/internal/parser.h"
 #include "core/emulators/grbl/internal/planner.h"
 #include "core/emulators/grbl/internal/report.h"
-#include "core/emulators/grbl/internal/serial_line.h"
-#include "core/emulators/grbl/internal/stepper.h"
 
 #include <bitset>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Lines that begin with $.
 #include "core/base/text.h"
-#include "core/emulators/grbl/internal/eeprom_image.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 #include "core/emulators/grbl/internal/emulated_controller.h"
 #include "core/emulators/grbl/internal/error_codes.h"
 

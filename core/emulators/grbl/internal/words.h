@@ -1,7 +1,7 @@
 // One line of G-code as an emulated Grbl reads it: which commands it holds, and the values of its words.
 #pragma once
 
-#include "core/emulators/grbl/internal/build.h"
+#include "core/emulators/grbl/internal/eeprom.h"
 
 #include <algorithm>
 #include <array>

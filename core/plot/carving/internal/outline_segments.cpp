@@ -1,7 +1,7 @@
 #include "core/plot/carving/internal/outline_segments.h"
 
 #include "core/base/error.h"
-#include "core/plot/carving/internal/segment_contacts.h"
+#include "core/plot/carving/internal/segment_tree.h"
 #include "core/plot_strokes/strokes.h"
 
 #include <fmt/format.h>

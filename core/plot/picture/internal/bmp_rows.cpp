@@ -1,6 +1,3 @@
-// BMP: pixels of 1, 4, 8, 16, 24 or 32 bits, and run-length codes. Source: Microsoft, Windows GDI, bitmap
-// structures.
-#include "core/plot/picture/internal/bmp_runs.h"
 #include "core/plot/picture/internal/row_sink.h"
 
 #include <fmt/format.h>
@@ -8,8 +5,139 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
+#include <span>
+#include <string_view>
 
 namespace millwright::plot::internal {
+
+// The run-length codes of a BMP of 4 or 8 bits. Source: Microsoft, Windows GDI, bitmap compression.
+
+/// Reads rows from the lowest upward, as they are stored. Pixels that the codes jump over have index 0.
+class BmpRuns {
+public:
+    /// `bytes` is the file, whose codes begin at byte `at`; `bits` is 4 or 8.
+    BmpRuns(std::string_view bytes, std::int64_t at, int bits, RowSink& sink)
+        : bytes_(bytes), at_(at), bits_(bits), sink_(sink) {}
+
+    /// Fills `indices` with the next row up. Throws by the sink, with the byte, for codes that leave the row
+    /// and where the file ends before the code that ends the picture.
+    void next_row(std::span<unsigned char> indices);
+
+private:
+    enum class Escape : unsigned char { end_of_row = 0, end_of_picture = 1, jump = 2 };
+
+    [[nodiscard]] unsigned char next_byte();
+    /// The index of pixel `n` of a run or of literal pixels, in `pair` of two of 4 bits or one of 8.
+    [[nodiscard]] unsigned char index_of(unsigned char pair, int n) const;
+    void repeat(std::span<unsigned char> indices, int count);
+    void copy(std::span<unsigned char> indices, int count);
+    void jump(std::span<const unsigned char> indices);
+    void check_room(std::span<const unsigned char> indices, int count) const;
+
+    std::string_view bytes_;
+    std::int64_t at_;
+    int bits_;
+    RowSink& sink_;
+    std::int64_t code_at_ = 0; ///< byte of the code that is being obeyed
+    std::int64_t x_ = 0;
+    int rows_to_pass_ = 0; ///< that a jump left without a pixel
+    bool ended_ = false;
+};
+
+void BmpRuns::next_row(std::span<unsigned char> indices) {
+    std::ranges::fill(indices, static_cast<unsigned char>(0));
+    if (ended_) {
+        return;
+    }
+    if (rows_to_pass_ > 0 && --rows_to_pass_ > 0) {
+        return;
+    }
+    for (bool row_ends = false; !row_ends;) {
+        code_at_ = at_;
+        const int count = next_byte();
+        if (count > 0) {
+            repeat(indices, count);
+            continue;
+        }
+        const int what = next_byte();
+        switch (static_cast<Escape>(what)) {
+        case Escape::end_of_row:
+            x_ = 0;
+            row_ends = true;
+            break;
+        case Escape::end_of_picture:
+            ended_ = true;
+            row_ends = true;
+            break;
+        case Escape::jump:
+            jump(indices);
+            row_ends = rows_to_pass_ > 0;
+            break;
+        default:
+            copy(indices, what);
+        }
+    }
+}
+
+unsigned char BmpRuns::next_byte() {
+    if (at_ >= std::ssize(bytes_)) {
+        sink_.fail(fmt::format("the BMP is cut off at byte {}, before the end code", bytes_.size()));
+    }
+    return static_cast<unsigned char>(bytes_[static_cast<std::size_t>(at_++)]);
+}
+
+unsigned char BmpRuns::index_of(unsigned char pair, int n) const {
+    if (bits_ == 8) {
+        return pair;
+    }
+    return n % 2 == 0 ? static_cast<unsigned char>(pair >> 4U) : static_cast<unsigned char>(pair & 15U);
+}
+
+void BmpRuns::repeat(std::span<unsigned char> indices, int count) {
+    check_room(indices, count);
+    const unsigned char pair = next_byte();
+    for (int n = 0; n < count; ++n) {
+        indices[static_cast<std::size_t>(x_++)] = index_of(pair, n);
+    }
+}
+
+void BmpRuns::copy(std::span<unsigned char> indices, int count) {
+    check_room(indices, count);
+    const int in_byte = 8 / bits_;
+    unsigned char pair = 0;
+    for (int n = 0; n < count; ++n) {
+        if (n % in_byte == 0) {
+            pair = next_byte();
+        }
+        indices[static_cast<std::size_t>(x_++)] = index_of(pair, n);
+    }
+    const bool odd = (count + in_byte - 1) / in_byte % 2 != 0;
+    if (odd) {
+        (void)next_byte(); // literal pixels fill words of 16 bits
+    }
+}
+
+void BmpRuns::jump(std::span<const unsigned char> indices) {
+    const int right = next_byte();
+    rows_to_pass_ = next_byte();
+    check_room(indices, right);
+    x_ += right;
+}
+
+void BmpRuns::check_room(std::span<const unsigned char> indices, int count) const {
+    const auto width = std::ssize(indices);
+    if (x_ + count > width) {
+        sink_.fail(fmt::format("the run at byte {} of the BMP ends at column {}, beyond the width of {}",
+                               code_at_,
+                               x_ + count,
+                               width));
+    }
+}
+
+// BMP: pixels of 1, 4, 8, 16, 24 or 32 bits, and run-length codes. Source: Microsoft, Windows GDI, bitmap
+// structures.
+
 namespace {
 
 constexpr std::int64_t file_head = 14;

@@ -7,6 +7,12 @@
 
 namespace millwright::plot::internal {
 
+// Pixels that are not as wide as high, as those of scanners and old screens.
+
+/// The picture with another number of rows, >= 1, that take the same height: each is the mean of those that
+/// it covers.
+[[nodiscard]] Picture with_rows(const Picture& picture, int rows);
+
 /// What the bytes of a row are. Samples of 16 bits are in the machine's own order.
 struct RowFormat {
     int channels = 3; ///< 1 gray, 2 gray and opacity, 3 RGB, 4 RGB and opacity

@@ -1,13 +1,12 @@
 #include "core/drivers/grbl/grbl_driver.h"
 
 #include "core/base/error.h"
-#include "core/emulators/grbl/grbl_server.h"
+#include "core/emulators/grbl/grbl_emulator.h"
 #include "core/jobs/dispatcher.h"
 #include "core/links/fault_link.h"
 #include "core/links/pseudo_terminal.h"
 #include "core/links/serial_link.h"
-#include "core/links/tcp_link.h"
-#include "core/links/tcp_server.h"
+#include "core/links/tcp.h"
 #include "tests/core/links/reading.h"
 #include "tests/support/scratch_folder.h"
 

@@ -7,7 +7,6 @@
 #include "core/jobs/job_log.h"
 #include "core/jobs/point_job.h"
 #include "core/jobs/recovery.h"
-#include "core/jobs/resume_point.h"
 #include "core/links/file_link.h"
 #include "tests/support/jobs.h"
 #include "tests/support/machines.h"

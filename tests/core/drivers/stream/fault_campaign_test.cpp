@@ -11,7 +11,7 @@
 #include "core/drivers/stream/stream_driver.h"
 #include "core/emulators/stream/stream_emulator.h"
 #include "core/jobs/dispatcher.h"
-#include "core/links/faults.h"
+#include "core/links/fault_link.h"
 #include "tests/support/jobs.h"
 #include "tests/support/scratch_folder.h"
 

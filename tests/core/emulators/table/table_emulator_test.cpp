@@ -3,7 +3,7 @@
 
 #include "core/base/error.h"
 #include "core/drivers/stream/stream_driver.h"
-#include "core/emulators/emulator_server.h"
+#include "core/emulators/emulator.h"
 #include "core/links/pseudo_terminal.h"
 #include "core/links/serial_link.h"
 #include "tests/core/jobs/answered_records.h"

@@ -1,6 +1,5 @@
-#include "core/jobs/internal/path_estimate.h"
-
 #include "core/jobs/dispatcher.h"
+#include "core/jobs/internal/position_estimate.h"
 #include "core/jobs/job.h"
 #include "tests/core/drivers/grbl/wire_driver.h"
 #include "tests/support/scratch_folder.h"

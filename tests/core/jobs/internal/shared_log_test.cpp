@@ -1,6 +1,5 @@
-#include "core/jobs/internal/shared_log.h"
-
 #include "core/base/error.h"
+#include "core/jobs/internal/running_job.h"
 #include "tests/support/jobs.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
-#include "core/plot/carving/internal/path_deviation.h"
-
 #include "core/base/units.h"
+#include "core/plot/carving/internal/carving_outlines.h"
 #include "core/plot/carving/internal/segment_tree.h"
 #include "tests/core/plot/carving/carving_shapes.h"
 

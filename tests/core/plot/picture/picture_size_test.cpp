@@ -1,4 +1,4 @@
-#include "core/plot/picture/picture_size.h"
+#include "core/plot/picture/picture.h"
 
 #include <gtest/gtest.h>
 

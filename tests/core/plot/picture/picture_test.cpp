@@ -2,7 +2,6 @@
 #include "core/plot/picture/picture.h"
 
 #include "core/base/files.h"
-#include "core/plot/picture/png_writer.h"
 #include "tests/core/plot/picture/made_pictures.h"
 #include "tests/support/scratch_folder.h"
 

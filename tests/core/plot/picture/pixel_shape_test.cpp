@@ -1,7 +1,6 @@
 // Pictures whose pixels are not square, that a camera turned, or that let the ground through.
 #include "core/plot/picture/height_field.h"
 #include "core/plot/picture/picture.h"
-#include "core/plot/picture/picture_size.h"
 #include "tests/core/plot/picture/made_pictures.h"
 
 #include <gmock/gmock.h>

@@ -4,8 +4,8 @@
 #include "core/arm/arm_file.h"
 #include "core/arm/arm_simulation.h"
 #include "core/base/units.h"
+#include "core/motion/arm_motion.h"
 #include "core/motion/planner.h"
-#include "core/motion/taught_points_motion.h"
 #include "core/pmac/driver/arm_axes.h"
 #include "core/pmac/driver/pmac_program.h"
 
