@@ -102,6 +102,7 @@ namespace {
 #pragma GCC target("avx2")
 #define LANES_NAME registers_of_4
 #define LANES_WIDTH 4
+#include "core/simulation/internal/tile_sweep.inc"
 #undef LANES_NAME
 #undef LANES_WIDTH
 #pragma GCC pop_options
@@ -109,6 +110,7 @@ namespace {
 #pragma GCC target("avx512f,avx512dq,avx512vl")
 #define LANES_NAME registers_of_8
 #define LANES_WIDTH 8
+#include "core/simulation/internal/tile_sweep.inc"
 #undef LANES_NAME
 #undef LANES_WIDTH
 #pragma GCC pop_options
