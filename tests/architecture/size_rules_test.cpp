@@ -115,8 +115,6 @@ constexpr std::array long_functions = {
 constexpr std::array many_flags = {
     Larger{"core/drivers/driver.h", "Capabilities", 20},
     Larger{"core/drivers/driver_status.h", "DriverStatus", 6},
-    Larger{"core/drivers/grbl/internal/grbl_session.h", "GrblSession", 19},
-    Larger{"core/emulators/grbl/internal/emulated_controller.h", "EmulatedController", 11},
     Larger{"core/gcode/modal_state.h", "ModalState", 11},
     Larger{"core/plan/plan.h", "Scope", 6},
     Larger{"core/hpgl/internal/pen.h", "Pen", 6},
