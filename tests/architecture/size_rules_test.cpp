@@ -117,7 +117,6 @@ constexpr std::array many_flags = {
     Larger{"core/drivers/driver_status.h", "DriverStatus", 6},
     Larger{"core/gcode/modal_state.h", "ModalState", 11},
     Larger{"core/plan/plan.h", "Scope", 6},
-    Larger{"core/hpgl/internal/pen.h", "Pen", 6},
     Larger{"ui/actions/manual_settings.h", "ManualSettings", 7},
     Larger{"ui/actions/view_state.h", "ViewState", 9},
     Larger{"ui/render/gamepad.h", "Gamepad", 6},
