@@ -122,6 +122,31 @@ std::array<std::array<Vec3, 3>, 2> halves(const std::array<Vec3, 3>& t) {
     return {{{t[n], middle, t[(n + 2) % 3]}, {middle, t[(n + 1) % 3], t[(n + 2) % 3]}}};
 }
 
+std::array<Vec3, 3> corners_of(const std::array<int, 3>& triangle, const std::vector<Vec3>& points) {
+    std::array<Vec3, 3> t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        t.at(k) = points[static_cast<std::size_t>(triangle.at(k))];
+    }
+    return t;
+}
+
+/// Which triangles have boxes that meet `box`.
+std::vector<std::size_t> reaching_into(const Box3& box,
+                                       const std::vector<std::array<int, 3>>& triangles,
+                                       const std::vector<Vec3>& points) {
+    std::vector<std::size_t> reaching;
+    for (std::size_t n = 0; n < triangles.size(); ++n) {
+        Box3 around;
+        for (const Vec3& corner : corners_of(triangles[n], points)) {
+            around.extend(corner);
+        }
+        if (around.intersects(box)) {
+            reaching.push_back(n);
+        }
+    }
+    return reaching;
+}
+
 } // namespace
 
 /// The nearest place so far, and what is still worth a look.
@@ -383,25 +408,9 @@ CollisionMesh::deepest(const CollisionMesh& other, const Frame& this_T_other, in
             best = {depth, point};
         }
     }
-    near.clear();
-    const auto triangle = [&](std::size_t n) {
-        std::array<Vec3, 3> t;
-        for (std::size_t k = 0; k < 3; ++k) {
-            t.at(k) = points[static_cast<std::size_t>(other.surface_.triangles[n].at(k))];
-        }
-        return t;
-    };
-    for (std::size_t n = 0; n < other.surface_.triangles.size(); ++n) {
-        Box3 around;
-        for (const Vec3& corner : triangle(n)) {
-            around.extend(corner);
-        }
-        if (around.intersects(box_)) {
-            near.push_back(n);
-        }
-    }
+    near = reaching_into(box_, other.surface_.triangles, points);
     for (std::size_t n = 0; n < near.size(); n += step_over(near.size())) {
-        look(triangle(near[n]), infinite);
+        look(corners_of(other.surface_.triangles[near[n]], points), infinite);
     }
     for (int n = 0; n < looks && !left.empty() && left.top().bound > best.distance + exact; ++n) {
         const Piece piece = left.top();

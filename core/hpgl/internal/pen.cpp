@@ -121,7 +121,7 @@ Pen::Pen(const HpglSettings& settings, const Problems& problems)
 
 void Pen::select(int number) {
     end_dot();
-    open_ = open_ && number_ == number;
+    last_.open = last_.open && number_ == number;
     number_ = number;
 }
 
@@ -138,7 +138,7 @@ void Pen::lower() {
 void Pen::lift() {
     end_dot();
     down_ = false;
-    open_ = false;
+    last_.open = false;
     line.restart();
 }
 
@@ -165,7 +165,7 @@ void Pen::draw(const Vec2& to) {
 }
 
 bool Pen::would_close(const Vec2& to) const {
-    return open_ && down_ && !lost_ && !strokes_.empty() && strokes_.back().points.front() == mm(to);
+    return last_.open && down_ && !lost_ && !strokes_.empty() && strokes_.back().points.front() == mm(to);
 }
 
 bool Pen::is_near(const Vec2& place) {
@@ -215,7 +215,7 @@ void Pen::move(const Vec2& to, bool drawn) {
         draw_vector(at_, to);
         dot_ = false;
     } else {
-        open_ = false;
+        last_.open = false;
         line.restart();
     }
     at_ = to;
@@ -224,14 +224,14 @@ void Pen::move(const Vec2& to, bool drawn) {
 void Pen::lose() {
     lost_ = true;
     dot_ = false;
-    open_ = false;
+    last_.open = false;
 }
 
 // A pen that went down and up at one place, with no line from there, leaves a dot.
 void Pen::end_dot() {
     if (std::exchange(dot_, false) && number_ && !lost_) {
         draw_clipped(at_, at_);
-        open_ = false;
+        last_.open = false;
     }
 }
 
@@ -241,7 +241,7 @@ void Pen::draw_vector(const Vec2& from, const Vec2& to) {
         return;
     }
     line.apply(from, to, [this](const Vec2& a, const Vec2& b) {
-        open_ = open_ && a == tip_;
+        last_.open = last_.open && a == last_.tip;
         draw_clipped(a, b);
     });
 }
@@ -255,17 +255,17 @@ void Pen::draw_clipped(Vec2 from, Vec2 to) {
 }
 
 void Pen::append(const Vec2& from, const Vec2& to) {
-    if (!open_ || from != tip_ || strokes_.back().pen != *number_) {
+    if (!last_.open || from != last_.tip || strokes_.back().pen != *number_) {
         constexpr int points_of_a_stroke = 4; // its own memory beside them
         count_points(points_of_a_stroke);
         strokes_.push_back({.pen = *number_, .points = {mm(from)}, .byte = byte});
-        open_ = true;
+        last_.open = true;
     }
     if (to != from) {
         count_points(1);
         strokes_.back().points.push_back(mm(to));
     }
-    tip_ = to;
+    last_.tip = to;
 }
 
 void Pen::count_points(int count) {
@@ -289,7 +289,7 @@ void Pen::next_outline() {
 void Pen::close_polygon() {
     polygon_open_ = false;
     at_ = polygon_.front().front().at;
-    open_ = false;
+    last_.open = false;
 }
 
 void Pen::finish(Plot& plot, std::int64_t at_byte) {

@@ -142,6 +142,11 @@ private:
     void end_dot();
     [[nodiscard]] Vec2 mm(const Vec2& plotter) const { return plotter.cwiseProduct(unit_); }
 
+    struct LastStroke {
+        bool open = false;       ///< it may go on
+        Vec2 tip = Vec2::Zero(); ///< where it ends
+    };
+
     const Problems& problems_;
     Vec2 unit_;
     Vec2 farthest_; ///< of the origin on each axis
@@ -153,8 +158,7 @@ private:
     bool dot_ = false; ///< the pen went down and has drawn nothing yet
     std::optional<int> number_ = 1;
     plot::Strokes strokes_;
-    bool open_ = false;       ///< the last stroke may go on
-    Vec2 tip_ = Vec2::Zero(); ///< where it ends
+    LastStroke last_;
     Polygon polygon_;
     bool polygon_open_ = false;
     std::optional<std::string> refusal_;

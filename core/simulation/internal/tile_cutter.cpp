@@ -34,6 +34,39 @@ int parts_of(const TileMotion& motion) {
     return std::max(1, std::abs(motion.middle[2]) < nearly_parallel ? 2 * turns : 6 * turns);
 }
 
+/// What up to eight lines meet at one moment of the step.
+struct LaneMoment {
+    double f = 0.0;
+    std::array<std::array<double, Tile::side>, 2> value{}, rate{};
+};
+
+/// Between two moments, where the value of lane `n` falls and rises again, or its line misses. False where
+/// there is nothing to search.
+bool places_search(
+    const LaneMoment& left, const LaneMoment& right, std::size_t end, std::size_t n, LaneSearch& search) {
+    const bool left_hit = left.value[end][n] < missed, right_hit = right.value[end][n] < missed;
+    const bool falls = left_hit && left.rate[end][n] < 0.0;
+    const bool rises = right_hit && right.rate[end][n] > 0.0;
+    if (falls && (rises || !right_hit)) {
+        search.left_f = left.f;
+        search.left_value = left.value[end][n];
+        search.left_rate = left.rate[end][n];
+        search.right_f = right.f;
+        search.right_value = right.value[end][n];
+        search.right_rate = right.rate[end][n];
+    } else if (rises && !left_hit) {
+        search.left_f = right.f;
+        search.left_value = right.value[end][n];
+        search.left_rate = right.rate[end][n];
+        search.right_f = left.f;
+        search.mirrored = -1.0;
+    } else {
+        return false;
+    }
+    search.far_end = static_cast<double>(end);
+    return true;
+}
+
 } // namespace
 
 ReadyStep::ReadyStep(const CutStep& cut, const Vec3& cell)
@@ -163,11 +196,7 @@ void TileCutter::settle(const ReadyStep& step, std::size_t line) {
 /// Up to eight lines at moments between the ends of the step; where the value falls and rises again, or the
 /// line misses, a search begins.
 void TileCutter::attempt_between(const TileMotion& motion, Pending* pending, std::size_t count) {
-    struct Moment {
-        double f = 0.0;
-        std::array<std::array<double, Tile::side>, 2> value{}, rate{};
-    };
-    Moment left, right;
+    LaneMoment left, right;
     LaneTries tries;
     for (std::size_t n = 0; n < Tile::side; ++n) {
         const std::size_t line = pending[std::min(n, count - 1)].line;
@@ -194,27 +223,10 @@ void TileCutter::attempt_between(const TileMotion& motion, Pending* pending, std
                 if (of.settled[end]) {
                     continue;
                 }
-                const bool left_hit = left.value[end][n] < missed, right_hit = right.value[end][n] < missed;
-                const bool falls = left_hit && left.rate[end][n] < 0.0;
-                const bool rises = right_hit && right.rate[end][n] > 0.0;
                 LaneSearch search{.u = tries.u[n], .v = tries.v[n], .enough = of.enough[end]};
-                if (falls && (rises || !right_hit)) {
-                    search.left_f = left.f;
-                    search.left_value = left.value[end][n];
-                    search.left_rate = left.rate[end][n];
-                    search.right_f = right.f;
-                    search.right_value = right.value[end][n];
-                    search.right_rate = right.rate[end][n];
-                } else if (rises && !left_hit) {
-                    search.left_f = right.f;
-                    search.left_value = right.value[end][n];
-                    search.left_rate = right.rate[end][n];
-                    search.right_f = left.f;
-                    search.mirrored = -1.0;
-                } else {
+                if (!places_search(left, right, end, n, search)) {
                     continue;
                 }
-                search.far_end = static_cast<double>(end);
                 searches_.push_back(search);
                 owners_.push_back(static_cast<std::uint32_t>(2 * (&of - pending_.data())) +
                                   static_cast<std::uint32_t>(end));

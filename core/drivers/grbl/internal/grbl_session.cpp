@@ -34,12 +34,12 @@ std::string GrblSession::take_output() {
 /// What was doubted before a link broke still is.
 void GrblSession::opened(double now) {
     PositionDoubt doubt = std::move(doubt_);
-    const bool length_left = length_left_;
-    const bool zero_of_other = zero_of_other_;
+    const bool length_left = tool_length_.left;
+    const bool zero_of_other = tool_length_.zero_of_other;
     *this = GrblSession(settings_);
     doubt_ = std::move(doubt);
-    length_left_ = length_left;
-    zero_of_other_ = zero_of_other;
+    tool_length_.left = length_left;
+    tool_length_.zero_of_other = zero_of_other;
     stage_ = Stage::greeting;
     last_heard_ = ending_since_ = now;
     host_stall_.begin(now);
@@ -148,7 +148,7 @@ void GrblSession::watch_silence(double now) {
         if (silence > settings_.greeting_time) {
             stage_ = Stage::alarm;
             message_ = "no Grbl controller answers at this port";
-            message_ += stray_line_.empty() ? "" : fmt::format("; received '{}'", stray_line_);
+            message_ += asking_.stray_line.empty() ? "" : fmt::format("; received '{}'", asking_.stray_line);
         } else if (stage_ == Stage::greeting && silence > settings_.greeting_time / 2.0) {
             // After a limit switch Grbl is deaf to all but a reset, and a board that begins anew waits for a
             // boot loader. Both stand still.
@@ -176,21 +176,21 @@ void GrblSession::send_reset(double now) {
     window_.clear();
     tracker_.disturbed();
     overrides_.forget();
-    sent_alone_ = zero_moves_ = false; // the first report after it shows the offset
+    sent_alone_ = zero_.moves = false; // the first report after it shows the offset
 }
 
 /// Brakes to rest, then empties the controller's buffers by a reset. Nothing else is sent in the meantime.
 void GrblSession::end(bool fault, std::string message, double now) {
     if (stage_ == Stage::braking || stage_ == Stage::flushing) {
-        if (fault && !ending_in_fault_) {
-            ending_in_fault_ = true;
-            ending_message_ = std::move(message);
+        if (fault && !ending_.in_fault) {
+            ending_.in_fault = true;
+            ending_.message = std::move(message);
         }
         return;
     }
     stage_ = Stage::braking;
-    ending_in_fault_ = fault;
-    ending_message_ = std::move(message);
+    ending_.in_fault = fault;
+    ending_.message = std::move(message);
     ending_since_ = last_brake_ = now;
     rest_reports_ = 0;
     message_.clear();      // why it paused, or was found moving, is not why it stops
@@ -219,9 +219,9 @@ void GrblSession::watch_ending(double now) {
     } else if (stage_ == Stage::flushing) {
         if (now - ending_since_ > flushing_time) {
             doubt_.arise("the controller did not respond to a reset");
-            ending_in_fault_ = true;
-            ending_message_ += ending_message_.empty() ? "" : "; ";
-            ending_message_ +=
+            ending_.in_fault = true;
+            ending_.message += ending_.message.empty() ? "" : "; ";
+            ending_.message +=
                 "the controller does not respond to a reset; check that the machine has stopped";
             finish_ending(now);
         } else if (now - last_reset_ > 2.0 * repeat_time) {
@@ -231,15 +231,16 @@ void GrblSession::watch_ending(double now) {
 }
 
 void GrblSession::finish_ending(double now) {
-    if (!ending_in_fault_ && readout_.settings.empty()) { // stopped before it was asked anything
+    if (!ending_.in_fault && readout_.settings.empty()) { // stopped before it was asked anything
         begin_asking(now, false);
         return;
     }
-    message_ = ending_message_;
-    hold_wanted_ = held_ = jog_stopping_ = block_wait_ = false;
+    message_ = ending_.message;
+    hold_.state = HoldState::none;
+    jogging_.stopping = single_block_.waits = false;
     window_.clear();
     settle_answer(message_.empty() ? "stopped" : message_);
-    if (ending_in_fault_) {
+    if (ending_.in_fault) {
         stage_ = Stage::alarm;
     } else {
         proof_closed_ = true; // what it had acknowledged, the reset has thrown away
@@ -249,11 +250,11 @@ void GrblSession::finish_ending(double now) {
 
 /// What a program, a command or a reset has changed: stored offsets and modes; `first` goes before.
 void GrblSession::ask_again(Stage then, double now, const std::string& first) {
-    questions_ = {"$G", "$#"}; // the last comes first
+    asking_.questions = {"$G", "$#"}; // the last comes first
     if (!first.empty()) {
-        questions_.push_back(first);
+        asking_.questions.push_back(first);
     }
-    after_asking_ = then;
+    asking_.then = then;
     stage_ = Stage::asking_again;
     window_ = Window(readout_.buffer_bytes, true);
     last_answer_ = last_heard_ = now;
@@ -270,10 +271,10 @@ void GrblSession::settle_answer(const std::string& why_not) {
 }
 
 void GrblSession::watch_hold(double now) {
-    if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_wanted_ && !held_ &&
-        now - hold_sent_ > repeat_time) {
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_.state == HoldState::wanted &&
+        now - hold_.sent > repeat_time) {
         output_ += hold_byte();
-        hold_sent_ = now;
+        hold_.sent = now;
     }
 }
 
@@ -287,7 +288,7 @@ void GrblSession::watch_answers(double now) {
         return;
     }
     const bool waits_for_more = report_ && report_->state != MachineState::idle && !checks();
-    if (!expects_answers || window_.empty() || hold_wanted_ || held_ || !report_ || waits_for_more) {
+    if (!expects_answers || window_.empty() || hold_.state != HoldState::none || !report_ || waits_for_more) {
         last_answer_ = now;
         idle_unanswered_ = 0;
         return;
@@ -307,19 +308,19 @@ void GrblSession::watch_answers(double now) {
 /// reported later: where Grbl reports work positions, it changes at rest, and nothing moves before it is
 /// known.
 bool GrblSession::may_send(const ProgramLine& line) const {
-    if ((sent_alone_ && !window_.empty()) || zero_moves_) {
+    if ((sent_alone_ && !window_.empty()) || zero_.moves) {
         return false;
     }
-    const bool needs_rest = line.moves_zero && reports_work_ && at_ != Activity::check;
+    const bool needs_rest = line.moves_zero && zero_.reports_work && at_ != Activity::check;
     return !(line.goes_alone() || needs_rest) || (window_.empty() && (!needs_rest || tracker_.settled()));
 }
 
 /// Sends as much of the program as the controller has room for.
 void GrblSession::pump() {
-    if (stage_ != Stage::running || hold_wanted_ || stops_here()) {
+    if (stage_ != Stage::running || hold_.state != HoldState::none || stops_here()) {
         return;
     }
-    while (next_line_ < std::ssize(program_.lines) && !block_wait_) {
+    while (next_line_ < std::ssize(program_.lines) && !single_block_.waits) {
         const ProgramLine& line = program_.lines[static_cast<std::size_t>(next_line_)];
         std::string text = line.text + "\n";
         if (readout_.line_numbers && line.block < greatest_line_number && !line.is_setting()) {
@@ -328,12 +329,12 @@ void GrblSession::pump() {
         if (!window_.has_room_for(text.size()) || !send_window_.allows(line.block) || !may_send(line)) {
             return;
         }
-        zero_moves_ = line.moves_zero && reports_work_ && at_ != Activity::check;
-        sent_alone_ = line.goes_alone() || zero_moves_;
+        zero_.moves = line.moves_zero && zero_.reports_work && at_ != Activity::check;
+        sent_alone_ = line.goes_alone() || zero_.moves;
         output_ += text;
         window_.push({LineKind::program, std::move(text), next_line_, line.dwell});
         ++next_line_;
-        block_wait_ = single_block_ && at_ == Activity::program && !change_;
+        single_block_.waits = single_block_.on && at_ == Activity::program && !change_;
         if (stops_here()) {
             return;
         }

@@ -117,6 +117,59 @@ private:
         alarm
     };
 
+    // What belongs to one of the things that a session does.
+
+    /// Questions about the controller: after the greeting, and after whatever may have changed the answers.
+    struct Asking {
+        Stage then = Stage::ready;          ///< after those of asking_again; or stopped
+        std::vector<std::string> questions; ///< the next comes last
+        bool asked_more = false;            ///< what only some firmwares are asked
+        bool told_sizes = false;            ///< [OPT:] named planner blocks and bytes
+        bool unlock = false;                ///< after the questions
+        std::string axis_letters;           ///< of [AXS:]
+        std::string found_alarm;            ///< that it reports of itself when it is met
+        std::string kept_lock;              ///< why it did not unlock
+        std::string stray_line;             ///< what somebody said here who may be no Grbl
+    };
+    /// Why it brakes and flushes.
+    struct Ending {
+        bool in_fault = false;
+        std::string message;
+    };
+    enum class HoldState { none, wanted, held }; ///< wanted: sent, and no report shows it yet
+    struct Hold {
+        HoldState state = HoldState::none;
+        double sent = 0.0, resumed = -1.0; ///< s; negative: never
+    };
+    struct Jogging {
+        bool stopping = false;
+        bool refused = false;
+        std::optional<double> until; ///< dead-man's time, s
+        internal::JogFeed feed;
+    };
+    struct SingleBlock {
+        bool on = false;
+        bool waits = false; ///< the next line waits for resume()
+    };
+    /// What a work position that is reported counts from.
+    struct WorkZero {
+        bool reports_work = false; ///< its reports give work positions ($10)
+        /// A change of the work offset was sent and no report has shown the new one: work positions may count
+        /// from either.
+        bool moves = false;
+    };
+    struct ToolLength {
+        std::optional<double> reference_z; ///< where the first tool of the job touched the sensor
+        bool reference_due = false, set = false;
+        bool left = false; ///< a job ended with a length in force, and no answer has shown it gone
+        /// A tool was changed since Z got its zero, which is not that of the tool in the spindle.
+        bool zero_of_other = false;
+    };
+    struct Check {
+        std::string modes_before; ///< a line that brings them back
+        int lines = 0, refused = 0;
+    };
+
     // grbl_session.cpp: commands and time
     void require_rest(std::string_view what) const;
     [[nodiscard]] const GrblFacts& facts() const { return facts_of(readout_.firmware); }
@@ -258,7 +311,6 @@ private:
 
     SessionSettings settings_;
     Stage stage_ = Stage::closed;
-    Stage after_asking_ = Stage::ready; ///< or stopped
     Readout readout_;
     std::string output_, input_;
     bool link_lost_ = false;
@@ -269,52 +321,31 @@ private:
     bool proof_closed_ = false; ///< the controller forgot what it had acknowledged
     Window window_;
     int next_line_ = 0;
-    bool sent_alone_ = false;   ///< the line under way: nothing follows it before its answer
-    bool reports_work_ = false; ///< its reports give work positions ($10)
-    /// A change of the work offset was sent and no report has shown the new one: work positions may count
-    /// from either.
-    bool zero_moves_ = false;
+    bool sent_alone_ = false; ///< the line under way: nothing follows it before its answer
+    WorkZero zero_;
     internal::SendWindow send_window_;
-    std::vector<std::string> questions_; ///< to be asked, the next comes last
-    bool asked_more_ = false;            ///< what only some firmwares are asked
-    bool told_sizes_ = false;            ///< [OPT:] named planner blocks and bytes
-    std::string axis_letters_;           ///< of [AXS:]
-    std::string found_alarm_;            ///< that it reports of itself when it is met
-    std::string kept_lock_;              ///< why it did not unlock
-    std::string stray_line_;             ///< what somebody said here who may be no Grbl
+    Asking asking_;
     std::string message_;
 
-    bool ending_in_fault_ = false; ///< while braking and flushing
-    std::string ending_message_;
+    Ending ending_;
     double ending_since_ = 0.0;
     int rest_reports_ = 0;    ///< in a row
     int idle_unanswered_ = 0; ///< reports since the last answer to a line, all of them idle
-    bool unlock_ = false;     ///< after the questions
     int spare_welcomes_ = 0;  ///< that repeated resets may still bring
     int resets_due_ = 0;      ///< greetings that our resets will bring
 
-    bool hold_wanted_ = false, held_ = false;
-    double hold_sent_ = 0.0, resume_sent_ = -1.0;
-    bool jog_stopping_ = false;
-    bool jog_refused_ = false;
-    std::optional<double> jog_until_; ///< dead-man's time
-    internal::JogFeed jog_feed_;
+    Hold hold_;
+    Jogging jogging_;
     Activity at_ = Activity::none; ///< program or command, the current or last
-    bool single_block_ = false;
-    bool block_wait_ = false; ///< the next line waits for resume()
+    SingleBlock single_block_;
     CommandAnswer answer_;
-    std::string modes_before_check_; ///< a line that brings them back
-    int checked_lines_ = 0, refused_in_check_ = 0;
+    Check check_;
 
     std::optional<ToolChanges> changes_;
     std::optional<Change> change_; ///< under way
     std::vector<std::string> own_lines_;
     std::map<std::string, Axes> offsets_at_start_; ///< of the job
-    std::optional<double> reference_z_;            ///< where the first tool of the job touched the sensor
-    bool reference_due_ = false, length_set_ = false;
-    bool length_left_ = false; ///< a job ended with a length in force, and no answer has shown it gone
-    bool zero_of_other_ =
-        false; ///< a tool was changed since Z got its zero, which is not that of the tool in the spindle
+    ToolLength tool_length_;
 
     std::optional<StatusMessage> report_; ///< the last
     HostStall host_stall_;

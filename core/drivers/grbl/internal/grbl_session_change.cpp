@@ -76,21 +76,21 @@ void GrblSession::begin_job(std::optional<ToolChanges> changes, ProgramLines& pr
     changes_ = std::move(changes);
     offsets_at_start_ = readout_.offsets;
     own_lines_.clear();
-    reference_z_.reset();
-    length_set_ = reference_due_ = false;
+    tool_length_.reference_z.reset();
+    tool_length_.set = tool_length_.reference_due = false;
     if (!changes_) {
         return;
     }
     if (!changes_->stops.empty() && has_tool_length()) {
         throw Error("a tool length offset of an earlier tool is active", {}, "cancel it with G49");
     }
-    if (changes_->needs_zero && zero_of_other_) {
+    if (changes_->needs_zero && tool_length_.zero_of_other) {
         throw Error("tools were changed since the Z zero was set, so it belongs to another tool",
                     {},
                     "set the Z zero with the tool in the spindle");
     }
     take_tool_changes(program);
-    reference_due_ = changes_->reference_first;
+    tool_length_.reference_due = changes_->reference_first;
 }
 
 bool GrblSession::has_tool_length() const {
@@ -132,11 +132,11 @@ std::string GrblSession::why_not_on() const {
     if (changes_->plan.way != ToolChangeWay::probe) {
         return {};
     }
-    if (const std::string anew = zero_set_anew(); reference_z_ && !anew.empty()) {
+    if (const std::string anew = zero_set_anew(); tool_length_.reference_z && !anew.empty()) {
         return "the Z zero was changed, but with the sensor only the first tool sets it: " + anew +
                "; restore it (G10 L2), or stop";
     }
-    if (!reference_z_ && has_tool_length()) {
+    if (!tool_length_.reference_z && has_tool_length()) {
         return "a tool length offset is active: cancel it with G49, and set the Z zero";
     }
     return {};
@@ -148,8 +148,8 @@ std::string GrblSession::what_to_do() const {
         return "; on hold: resume ends the hold, and the job continues to wait";
     }
     if (changes_->plan.way == ToolChangeWay::probe) {
-        return reference_z_ ? "; do not change the Z zero: the tool is measured"
-                            : "; set the Z zero with this tool, which is the reference";
+        return tool_length_.reference_z ? "; do not change the Z zero: the tool is measured"
+                                        : "; set the Z zero with this tool, which is the reference";
     }
     return stop_at_hand().highest_z
                ? ""
@@ -159,13 +159,14 @@ std::string GrblSession::what_to_do() const {
 /// Whether the next line waits for another tool, or for the first to be measured.
 bool GrblSession::stops_here() const {
     const bool in_program = at_ == Activity::program && !change_ && changes_;
-    return in_program && (reference_due_ || (next_line_ < std::ssize(program_.lines) &&
-                                             program_.lines[static_cast<std::size_t>(next_line_)].stop >= 0));
+    return in_program &&
+           (tool_length_.reference_due || (next_line_ < std::ssize(program_.lines) &&
+                                           program_.lines[static_cast<std::size_t>(next_line_)].stop >= 0));
 }
 
 void GrblSession::watch_change(double now) {
     const bool may_begin = stage_ == Stage::running && window_.empty() && tracker_.settled() &&
-                           !hold_wanted_ && !held_ && !block_wait_;
+                           hold_.state == HoldState::none && !single_block_.waits;
     const bool known = stage_ == Stage::ready && report_.has_value();
     if (may_begin && stops_here()) {
         begin_change(now);
@@ -184,13 +185,13 @@ void GrblSession::begin_change(double now) {
     Change change;
     change.next_line = next_line_;
     change.send_window = send_window_;
-    change.stop = reference_due_ ? -1 : program_.lines[static_cast<std::size_t>(next_line_)].stop;
+    change.stop = tool_length_.reference_due ? -1 : program_.lines[static_cast<std::size_t>(next_line_)].stop;
     change.program = std::move(program_);
     program_ = {};
     tracker_ = ExecutedLineTracker(program_, readout_.planner_blocks, readout_.segment_blocks);
     next_line_ = 0;
     change_ = std::move(change);
-    reference_due_ = false;
+    tool_length_.reference_due = false;
     ask_again(Stage::ready, now);
 }
 
@@ -240,7 +241,7 @@ void GrblSession::go_on_changing(double now) {
         }
         change_->step = ChangeStep::waiting;
         change_->highest_z = readout_.machine_position[z_axis];
-        zero_of_other_ = true; // whatever is put in
+        tool_length_.zero_of_other = true; // whatever is put in
         return;
     case ChangeStep::waiting:
         return;
@@ -249,7 +250,7 @@ void GrblSession::go_on_changing(double now) {
     case ChangeStep::lifting:
         return go_on_measuring(now);
     case ChangeStep::macro:
-        length_set_ = length_set_ || has_tool_length();
+        tool_length_.set = tool_length_.set || has_tool_length();
         return go_back(now);
     case ChangeStep::setting_length:
         return go_back(now);
@@ -266,7 +267,7 @@ void GrblSession::tool_is_changed(double now) {
         return;
     }
     const bool by_sensor = changes_->plan.way == ToolChangeWay::probe;
-    zero_of_other_ = by_sensor ? reference_z_.has_value() : zero_set_anew().empty();
+    tool_length_.zero_of_other = by_sensor ? tool_length_.reference_z.has_value() : zero_set_anew().empty();
     switch (changes_->plan.way) {
     case ToolChangeWay::stop:
         return go_back(now);
@@ -317,13 +318,13 @@ void GrblSession::go_on_measuring(double now) {
     if (change_->step == ChangeStep::second_touch) {
         return send_own(up_to(change_->top), ChangeStep::lifting, now);
     }
-    if (!reference_z_) {
-        reference_z_ = z;
+    if (!tool_length_.reference_z) {
+        tool_length_.reference_z = z;
         change_->made_reference = true;
         return go_back(now);
     }
-    length_set_ = true;
-    send_own(tool_length(z - *reference_z_), ChangeStep::setting_length, now);
+    tool_length_.set = true;
+    send_own(tool_length(z - *tool_length_.reference_z), ChangeStep::setting_length, now);
 }
 
 /// Not lower than the machine is, was before the change, or the program was before it.
@@ -380,7 +381,8 @@ std::string GrblSession::why_no_way_back(WayBack& way) const {
                 way.to[n],
                 *axis.min,
                 *axis.max,
-                changes_->plan.way == ToolChangeWay::probe && reference_z_ && !change_->made_reference
+                changes_->plan.way == ToolChangeWay::probe && tool_length_.reference_z &&
+                        !change_->made_reference
                     ? "use a tool of another length, or stop"
                     : "check the zero of the tool");
         }
@@ -403,7 +405,7 @@ void GrblSession::go_back(double now) {
     if (!why_not.empty() && change_->stop >= 0) {
         change_->step = ChangeStep::waiting;
         if (std::exchange(change_->made_reference, false)) {
-            reference_z_.reset(); // the person may take another tool now
+            tool_length_.reference_z.reset(); // the person may take another tool now
         }
         message_ = stop_at_hand().why + "; " + why_not;
         return;
@@ -422,7 +424,7 @@ void GrblSession::go_back(double now) {
 
 void GrblSession::resume_program(double now) {
     const bool of_a_stop = change_->stop >= 0;
-    length_set_ = length_set_ || has_tool_length(); // whoever has set it
+    tool_length_.set = tool_length_.set || has_tool_length(); // whoever has set it
     take_program_back();
     if (of_a_stop) {
         program_.lines[static_cast<std::size_t>(next_line_)].stop = -1;
@@ -430,8 +432,8 @@ void GrblSession::resume_program(double now) {
     proof_closed_ = false;
     window_ = Window(readout_.buffer_bytes, settings_.one_by_one);
     stage_ = Stage::running;
-    hold_wanted_ = held_ = block_wait_ = false;
-    resume_sent_ = -1.0;
+    hold_ = {};
+    single_block_.waits = false;
     message_.clear();
     readout_.modes.text.clear();
     readout_.modes.work_system = 0;
@@ -444,19 +446,20 @@ void GrblSession::resume_program(double now) {
 void GrblSession::drop_change() {
     const bool goes_on = stage_ == Stage::running || stage_ == Stage::ready || stage_ == Stage::jogging ||
                          stage_ == Stage::homing || stage_ == Stage::braking ||
-                         (stage_ == Stage::asking_again && after_asking_ == Stage::ready);
+                         (stage_ == Stage::asking_again && asking_.then == Stage::ready);
     if (change_ && !goes_on) {
         take_program_back();
         proof_closed_ = true;
     }
-    if (length_set_ && (stage_ == Stage::stopped || stage_ == Stage::alarm)) {
-        length_set_ = false;
-        length_left_ = stage_ == Stage::alarm || has_tool_length(); // a stop ends with a reset, and asks
+    if (tool_length_.set && (stage_ == Stage::stopped || stage_ == Stage::alarm)) {
+        tool_length_.set = false;
+        tool_length_.left = stage_ == Stage::alarm || has_tool_length(); // a stop ends with a reset, and asks
         own_lines_.emplace_back(
             stage_ == Stage::alarm
                 ? "(a tool length offset may be active: no job starts until it is cancelled)"
-            : length_left_ ? "(the tool length offset is active: no job starts until G49 has cancelled it)"
-                           : "(the reset after the stop cancelled the tool length offset)");
+            : tool_length_.left
+                ? "(the tool length offset is active: no job starts until G49 has cancelled it)"
+                : "(the reset after the stop cancelled the tool length offset)");
     }
 }
 

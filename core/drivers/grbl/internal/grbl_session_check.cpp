@@ -64,9 +64,9 @@ int GrblSession::check(ProgramLines program, double now) {
                         "run without this check");
         }
     }
-    modes_before_check_ = modes_line(readout_.modes.text);
-    refused_in_check_ = 0;
-    checked_lines_ = static_cast<int>(std::ssize(program.lines));
+    check_.modes_before = modes_line(readout_.modes.text);
+    check_.refused = 0;
+    check_.lines = static_cast<int>(std::ssize(program.lines));
     answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
     send_window_.begin(nullptr, program.blocks);
     program.lines.insert(program.lines.begin(), check_mode_toggle(0));
@@ -92,7 +92,7 @@ void GrblSession::refused_in_check(const SentLine& line, const std::string& why,
     }
     constexpr int most_shown = 100;
     const ProgramLine& of = program_.lines[static_cast<std::size_t>(line.index)];
-    if (++refused_in_check_ <= most_shown) {
+    if (++check_.refused <= most_shown) {
         answer_.text += answer_.text.empty() ? "" : "\n";
         answer_.text += fmt::format("line {}: {}: {}", of.line, why, of.text);
     }
@@ -104,14 +104,14 @@ void GrblSession::refused_in_check(const SentLine& line, const std::string& why,
 /// It was reset, and is asked what is in force now.
 void GrblSession::finish_check(double now) {
     window_.clear();
-    const bool all_read = refused_in_check_ == 0;
+    const bool all_read = check_.refused == 0;
     answer_.state = all_read ? CommandAnswer::State::done : CommandAnswer::State::refused;
     if (all_read) {
         answer_.text =
-            fmt::format("{} read {} in check mode without errors", name(), counted(checked_lines_, "line"));
+            fmt::format("{} read {} in check mode without errors", name(), counted(check_.lines, "line"));
     }
     overrides_.forget();
-    ask_again(Stage::ready, now, modes_before_check_);
+    ask_again(Stage::ready, now, check_.modes_before);
 }
 
 } // namespace millwright::drivers::grbl

@@ -37,21 +37,21 @@ void GrblSession::identify(const GrblIdentity& who) {
     readout_.firmware = who.firmware;
     readout_.version = who.version;
     readout_.segment_blocks = facts().segment_blocks;
-    if (!told_sizes_) {
+    if (!asking_.told_sizes) {
         readout_.planner_blocks = facts().planner_blocks;
     }
 }
 
 void GrblSession::take_axis_count(std::size_t count) {
-    readout_.axes =
-        axis_letters_.size() == count ? axis_letters_ : default_axis_letters(static_cast<int>(count));
+    readout_.axes = asking_.axis_letters.size() == count ? asking_.axis_letters
+                                                         : default_axis_letters(static_cast<int>(count));
     readout_.machine_position.resize(count);
     readout_.offset.resize(count);
 }
 
 /// What depends on who answers. False: there is nothing more to ask.
 bool GrblSession::ask_more(double now) {
-    if (std::exchange(asked_more_, true)) {
+    if (std::exchange(asking_.asked_more, true)) {
         return false;
     }
     constexpr int last_of_grbl = 132;
@@ -59,22 +59,22 @@ bool GrblSession::ask_more(double now) {
         readout_.axes.size() > 3 ||
         (!readout_.settings.empty() && readout_.settings.rbegin()->first > last_of_grbl);
     if (facts().settings == SettingForm::names) {
-        questions_ = {"$/planner_blocks", "$/stepping/segments"};
+        asking_.questions = {"$/planner_blocks", "$/stepping/segments"};
         for (const char letter : readout_.axes) {
             const std::string axis = std::string("$/axes/") +
                                      static_cast<char>(std::tolower(static_cast<unsigned char>(letter))) +
                                      "/";
             for (const NamedLimit& limit : named_limits) {
-                questions_.push_back(axis + std::string(limit.name));
+                asking_.questions.push_back(axis + std::string(limit.name));
             }
             for (const std::string_view item : homing_items) {
-                questions_.push_back(axis + std::string(item));
+                asking_.questions.push_back(axis + std::string(item));
             }
         }
     } else if (facts().firmware == GrblFirmware::grbl && more_than_grbl) {
-        questions_ = {"$I+"}; // a grblHAL that greets as Grbl does
+        asking_.questions = {"$I+"}; // a grblHAL that greets as Grbl does
     }
-    if (questions_.empty()) {
+    if (asking_.questions.empty()) {
         return false;
     }
     ending_since_ = now;
@@ -102,7 +102,7 @@ void GrblSession::handle(const NamedSetting& setting, double now) {
             }
         }
     }
-    if (const auto blocks = count_in(readout_.named, "/planner_blocks"); blocks && !told_sizes_) {
+    if (const auto blocks = count_in(readout_.named, "/planner_blocks"); blocks && !asking_.told_sizes) {
         readout_.planner_blocks = std::max(1, *blocks - 1); // one stays empty
     }
     if (const auto segments = count_in(readout_.named, "/stepping/segments")) {
@@ -130,7 +130,7 @@ void GrblSession::read_options(std::string_view text) {
     if (second.ec == std::errc{} && blocks > 0 && blocks < most && bytes >= 80 && bytes < most) {
         readout_.planner_blocks = blocks;
         readout_.buffer_bytes = bytes;
-        told_sizes_ = true;
+        asking_.told_sizes = true;
     }
 }
 
@@ -148,8 +148,9 @@ void GrblSession::read_axis_letters(std::string_view text) {
         return std::string_view("XYZABCUVW").find(letter) != std::string_view::npos;
     });
     if (known && std::ranges::adjacent_find(sorted) == sorted.end()) { // two motors may share a letter
-        axis_letters_ = std::move(letters);
-        readout_.axes = axis_letters_.size() == readout_.axes.size() ? axis_letters_ : readout_.axes;
+        asking_.axis_letters = std::move(letters);
+        readout_.axes =
+            asking_.axis_letters.size() == readout_.axes.size() ? asking_.axis_letters : readout_.axes;
     }
 }
 

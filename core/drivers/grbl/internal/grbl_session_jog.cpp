@@ -29,7 +29,7 @@ std::string jog_line(const internal::JogSlice& slice, std::string_view letters) 
 } // namespace
 
 void GrblSession::jog(const Jog& jog, double now) {
-    if (stage_ != Stage::jogging || jog_stopping_) {
+    if (stage_ != Stage::jogging || jogging_.stopping) {
         require_rest("jog");
     } else if (held_at_machine()) {
         throw Error(fmt::format("{} cannot accept a jog: {}", name(), why_held(report_->state)));
@@ -38,29 +38,29 @@ void GrblSession::jog(const Jog& jog, double now) {
         change_->confirmed = false;
     }
     if (stage_ != Stage::jogging) {
-        jog_feed_.begin(eigen_of(readout_.machine_position));
+        jogging_.feed.begin(eigen_of(readout_.machine_position));
         proof_closed_ = true;
-        jog_refused_ = false;
-        jog_feed_.add(in_axis_units(jog, readout_.axes));
+        jogging_.refused = false;
+        jogging_.feed.add(in_axis_units(jog, readout_.axes));
         window_ = Window(readout_.buffer_bytes, true);
         message_.clear();
         last_answer_ = last_heard_ = next_poll_ = now;
         idle_unanswered_ = 0;
         stage_ = Stage::jogging;
         rest_reports_ = 0;
-        jog_stopping_ = false;
+        jogging_.stopping = false;
     } else {
-        jog_feed_.add(in_axis_units(jog, readout_.axes));
+        jogging_.feed.add(in_axis_units(jog, readout_.axes));
     }
-    jog_until_ = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
+    jogging_.until = jog.dead_man > 0.0 ? std::optional(now + jog.dead_man) : std::nullopt;
     pump_jog();
 }
 
 void GrblSession::stop_jog(double now) {
-    if (stage_ == Stage::jogging && !jog_stopping_) {
-        jog_stopping_ = true;
-        jog_until_.reset();
-        jog_feed_.cancel();
+    if (stage_ == Stage::jogging && !jogging_.stopping) {
+        jogging_.stopping = true;
+        jogging_.until.reset();
+        jogging_.feed.cancel();
         rest_reports_ = 0;
         cancel_jog(now);
         next_poll_ = now;
@@ -74,10 +74,10 @@ void GrblSession::cancel_jog(double now) {
 
 /// One line at a time, so that none waits in the controller when the jog is cancelled.
 void GrblSession::pump_jog() {
-    if (stage_ != Stage::jogging || jog_stopping_ || !window_.empty()) {
+    if (stage_ != Stage::jogging || jogging_.stopping || !window_.empty()) {
         return;
     }
-    if (const auto slice = jog_feed_.next(eigen_of(readout_.machine_position), feed(), jog_limits())) {
+    if (const auto slice = jogging_.feed.next(eigen_of(readout_.machine_position), feed(), jog_limits())) {
         std::string text = jog_line(*slice, readout_.axes);
         output_ += text;
         window_.push({LineKind::jog, std::move(text), -1, 0.0});
@@ -111,10 +111,10 @@ void GrblSession::watch_jog(double now) {
     if (stage_ != Stage::jogging) {
         return;
     }
-    if (jog_until_ && now > *jog_until_) {
+    if (jogging_.until && now > *jogging_.until) {
         stop_jog(now);
     }
-    if (jog_stopping_ && now - last_brake_ > cancel_repeat_time) {
+    if (jogging_.stopping && now - last_brake_ > cancel_repeat_time) {
         cancel_jog(now);
     }
 }

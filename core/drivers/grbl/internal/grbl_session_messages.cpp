@@ -38,24 +38,24 @@ void append(std::string& sentence, const std::string& more) {
 
 void GrblSession::begin_asking(double now, bool unlock) {
     stage_ = Stage::asking;
-    unlock_ = unlock;
+    asking_.unlock = unlock;
     ending_since_ = now;
     message_.clear();
-    asked_more_ = false;
-    found_alarm_.clear();
-    kept_lock_.clear();
+    asking_.asked_more = false;
+    asking_.found_alarm.clear();
+    asking_.kept_lock.clear();
     window_ = Window(readout_.buffer_bytes, true);
     send_reset(now);
 }
 
 /// After the greeting that our reset brought.
 void GrblSession::ask_first() {
-    questions_.clear(); // the last comes first
-    if (unlock_) {
-        questions_.emplace_back("$X");
+    asking_.questions.clear(); // the last comes first
+    if (asking_.unlock) {
+        asking_.questions.emplace_back("$X");
     }
     for (const char* question : {"$G", "$#", "$$", "$I"}) {
-        questions_.emplace_back(question);
+        asking_.questions.emplace_back(question);
     }
     window_.clear();
     ask_next();
@@ -63,16 +63,16 @@ void GrblSession::ask_first() {
 
 void GrblSession::ask_next() {
     report_.reset(); // the next one tells how the controller is after all of this
-    if (questions_.empty()) {
-        length_left_ = length_left_ && has_tool_length();
+    if (asking_.questions.empty()) {
+        tool_length_.left = tool_length_.left && has_tool_length();
         if (stage_ == Stage::asking_again) {
-            stage_ = after_asking_;
+            stage_ = asking_.then;
             overrides_.forget(); // those that were set since its end
         }
         return;
     }
-    std::string text = questions_.back() + "\n";
-    questions_.pop_back();
+    std::string text = asking_.questions.back() + "\n";
+    asking_.questions.pop_back();
     output_ += text;
     window_.push({LineKind::query, std::move(text), -1, 0.0});
 }
@@ -89,10 +89,10 @@ void GrblSession::finish(double now) {
     }
     overrides_.forget(); // they outlast no program, and M2 and M30 have brought them back
     const bool sets = std::ranges::any_of(program_.lines, &ProgramLine::is_setting);
-    if (at_ == Activity::program && std::exchange(length_set_, false)) {
-        length_left_ = true; // until its offsets tell otherwise
+    if (at_ == Activity::program && std::exchange(tool_length_.set, false)) {
+        tool_length_.left = true; // until its offsets tell otherwise
         own_lines_.emplace_back("G49");
-        zero_moves_ = reports_work_;
+        zero_.moves = zero_.reports_work;
         ask_again(Stage::ready, now, "G49"); // the length of this job's last tool is not the next one's
         return;
     }
@@ -103,13 +103,13 @@ void GrblSession::finish(double now) {
 void GrblSession::take_zeros() {
     for (const ProgramLine& line : program_.lines) {
         const std::string axes = axes_zeroed_by(line.text, readout_.axes);
-        zero_of_other_ = zero_of_other_ && axes.find('Z') == std::string::npos;
+        tool_length_.zero_of_other = tool_length_.zero_of_other && axes.find('Z') == std::string::npos;
         doubt_.zeroed(axes, readout_.axes);
     }
 }
 
 void GrblSession::finish_asking(const StatusMessage& report) {
-    if (!unlock_) {
+    if (!asking_.unlock) {
         doubt_what_was_found(report);
     }
     if (report.state == MachineState::idle) {
@@ -122,9 +122,10 @@ void GrblSession::finish_asking(const StatusMessage& report) {
             name() + " is neither idle nor locked after its reset: the door is open, or it is in sleep mode";
         return;
     }
-    message_ = !kept_lock_.empty()     ? fmt::format("{} remains locked, {}", name(), kept_lock_)
-               : !found_alarm_.empty() ? fmt::format("{} is locked, {}", name(), found_alarm_)
-                                       : name() + " is locked: home the machine, or unlock it without moving";
+    message_ = !asking_.kept_lock.empty() ? fmt::format("{} remains locked, {}", name(), asking_.kept_lock)
+               : !asking_.found_alarm.empty()
+                   ? fmt::format("{} is locked, {}", name(), asking_.found_alarm)
+                   : name() + " is locked: home the machine, or unlock it without moving";
 }
 
 /// After the link was made: what happened before is unknown.
@@ -145,8 +146,8 @@ void GrblSession::handle_line(std::string_view line, double now) {
     }
     const Message message = read_message(line);
     const bool meets = stage_ == Stage::greeting || stage_ == Stage::asking;
-    if (meets && std::holds_alternative<Garbage>(message) && stray_line_.empty()) {
-        stray_line_ = printable(line);
+    if (meets && std::holds_alternative<Garbage>(message) && asking_.stray_line.empty()) {
+        asking_.stray_line = printable(line);
     }
     if (!std::holds_alternative<Garbage>(message) && !std::holds_alternative<Blank>(message)) { // not noise
         last_heard_ = now;
@@ -194,11 +195,11 @@ void GrblSession::refused(const SentLine& line, const std::string& why, double n
         const int number = program_.lines[static_cast<std::size_t>(line.index)].line;
         fail(fmt::format("line {} was refused, {}: {}", number, why, one_line(line.text)), now);
     } else if (line.kind == LineKind::query && (stage_ == Stage::asking || stage_ == Stage::asking_again)) {
-        kept_lock_ = line.text == "$X\n" ? why : kept_lock_;
+        asking_.kept_lock = line.text == "$X\n" ? why : asking_.kept_lock;
         ask_next(); // one that does not know the question
     } else {
-        jog_feed_.cancel();
-        jog_refused_ = line.kind == LineKind::jog;
+        jogging_.feed.cancel();
+        jogging_.refused = line.kind == LineKind::jog;
         message_ = why;
         stage_ = line.kind == LineKind::home && stage_ == Stage::homing ? Stage::alarm : stage_;
     }
@@ -222,7 +223,7 @@ void GrblSession::handle(const Ack&, double now) {
         at_ = change_ ? at_ : Activity::homing;
         ask_again(Stage::ready, now); // homing runs the start-up lines, which may set other modes and offsets
     }
-    if (stage_ == Stage::jogging && jog_stopping_) {
+    if (stage_ == Stage::jogging && jogging_.stopping) {
         cancel_jog(now); // it read that line after the cancel, and may have begun it
     }
 }
@@ -240,7 +241,7 @@ void GrblSession::handle(const ErrorAnswer& error, double now) {
     idle_unanswered_ = 0;
     tracker_.disturbed();
     const SentLine line = window_.pop();
-    if (line.kind == LineKind::jog && jog_stopping_ && error.number == facts().cancelled_jog_error) {
+    if (line.kind == LineKind::jog && jogging_.stopping && error.number == facts().cancelled_jog_error) {
         return;
     }
     refused(line, explain_grbl_error(error.number, readout_.firmware), now);
@@ -260,20 +261,20 @@ void GrblSession::handle(const AlarmMessage& alarm, double now) {
         if (grbl_alarm_needs_reset(alarm.number)) {
             begin_asking(now, false); // it hears nothing else from here on
         } else {
-            found_alarm_ = why;
+            asking_.found_alarm = why;
         }
         return;
     }
     if (stage_ == Stage::asking_again && resets_due_ == 0 && !grbl_alarm_needs_reset(alarm.number)) {
-        questions_.clear(); // the reset of a stop has brought it up: another would bring it again
+        asking_.questions.clear(); // the reset of a stop has brought it up: another would bring it again
         window_.clear();
         stage_ = Stage::alarm;
         message_ = why;
         return;
     }
     if (stage_ == Stage::flushing || stage_ == Stage::asking || resets_due_ > 0) {
-        append(ending_message_, why);
-        ending_in_fault_ = true;
+        append(ending_.message, why);
+        ending_.in_fault = true;
         return; // the greeting of the reset follows
     }
     if (stage_ == Stage::greeting) {
@@ -285,10 +286,10 @@ void GrblSession::handle(const AlarmMessage& alarm, double now) {
     }
     const bool was_active = active() || stage_ == Stage::braking;
     if (stage_ != Stage::braking) {
-        ending_message_.clear();
+        ending_.message.clear();
     }
-    append(ending_message_, why);
-    ending_in_fault_ = true;
+    append(ending_.message, why);
+    ending_.in_fault = true;
     window_.clear();
     if (was_active) { // it stands still; the reset empties what is left in its buffers
         stage_ = Stage::flushing;

@@ -51,11 +51,11 @@ double GrblSession::feed() const {
 
 void GrblSession::take_readout(const StatusMessage& report, double now) {
     readout_.offset = report.offset ? scaled(*report.offset) : readout_.offset;
-    zero_moves_ = zero_moves_ && !(report.offset && window_.empty());
-    reports_work_ = report.work_position || (reports_work_ && !report.machine_position);
+    zero_.moves = zero_.moves && !(report.offset && window_.empty());
+    zero_.reports_work = report.work_position || (zero_.reports_work && !report.machine_position);
     if (report.machine_position) {
         readout_.machine_position = scaled(*report.machine_position);
-    } else if (report.work_position && (report.offset || !zero_moves_)) {
+    } else if (report.work_position && (report.offset || !zero_.moves)) {
         const Axes work = scaled(*report.work_position);
         for (std::size_t n = 0; n < std::min(work.size(), readout_.offset.size()); ++n) {
             readout_.machine_position[n] = work[n] + readout_.offset[n];
@@ -112,7 +112,7 @@ void GrblSession::handle(const StatusMessage& report, double now) {
     if (stage_ == Stage::foreign) {
         return watch_foreign(report, now);
     }
-    if (stage_ == Stage::asking && questions_.empty() && window_.empty() && !ask_more(now)) {
+    if (stage_ == Stage::asking && asking_.questions.empty() && window_.empty() && !ask_more(now)) {
         finish_asking(report);
     }
     if ((active() || stage_ == Stage::braking) && !proof_closed_) {
@@ -125,13 +125,13 @@ void GrblSession::handle(const StatusMessage& report, double now) {
 /// with a reset: what a dwell kept back is gone then.
 void GrblSession::watch_foreign(const StatusMessage& report, double now) {
     const bool held = report.held();
-    if (held && !(resume_sent_ >= 0.0 && now - resume_sent_ < stale_time)) {
-        held_ = hold_wanted_ = true;
-    } else if (!held && held_) {
-        held_ = hold_wanted_ = false;
+    if (held && !(hold_.resumed >= 0.0 && now - hold_.resumed < stale_time)) {
+        hold_.state = HoldState::held;
+    } else if (!held && hold_.state == HoldState::held) {
+        hold_.state = HoldState::none;
     }
     constexpr int enough_reports = 5; // half a second
-    if (!held && !hold_wanted_ && rest_reports_ >= enough_reports) {
+    if (!held && hold_.state == HoldState::none && rest_reports_ >= enough_reports) {
         begin_asking(now, false);
     }
 }
@@ -161,22 +161,22 @@ void GrblSession::watch_state(const StatusMessage& report, double now) {
         const bool all =
             next_line_ == std::ssize(program_.lines) && window_.empty() &&
             (at_ == Activity::command || tracker_.executed_lines() == std::ssize(program_.lines));
-        if (stage_ == Stage::running && all && tracker_.settled() && !hold_wanted_ && !held_) {
+        if (stage_ == Stage::running && all && tracker_.settled() && hold_.state == HoldState::none) {
             finish(now);
         }
     }
     constexpr int enough_reports = 2;
     constexpr int no_answer_reports = 4; // whatever it has read is answered by then
-    if (stage_ == Stage::jogging && jog_stopping_ && facts().cancel_drops_lines &&
+    if (stage_ == Stage::jogging && jogging_.stopping && facts().cancel_drops_lines &&
         rest_reports_ >= no_answer_reports) {
         window_.clear();
     }
-    if (stage_ == Stage::jogging && window_.empty() && jog_feed_.empty() &&
+    if (stage_ == Stage::jogging && window_.empty() && jogging_.feed.empty() &&
         report.state == MachineState::idle && rest_reports_ >= enough_reports) {
         stage_ = Stage::ready;
-        jog_stopping_ = false;
-        jog_until_.reset();
-        if (facts().errors_stick && std::exchange(jog_refused_, false)) {
+        jogging_.stopping = false;
+        jogging_.until.reset();
+        if (facts().errors_stick && std::exchange(jogging_.refused, false)) {
             ask_again(Stage::ready, now); // a $ line that is right ends that
         }
     }
@@ -184,14 +184,14 @@ void GrblSession::watch_state(const StatusMessage& report, double now) {
 
 void GrblSession::watch_motion(const StatusMessage& report, double now) {
     const bool held = report.held();
-    const bool stale = resume_sent_ >= 0.0 && now - resume_sent_ < stale_time;
+    const bool stale = hold_.resumed >= 0.0 && now - hold_.resumed < stale_time;
     if (held && !stale) {
-        if (!hold_wanted_ && !held_) {
+        if (hold_.state == HoldState::none) {
             message_ = why_held(report.state);
         }
-        held_ = hold_wanted_ = true;
-    } else if (!held && held_) { // resumed at the machine
-        held_ = hold_wanted_ = false;
+        hold_.state = HoldState::held;
+    } else if (!held && hold_.state == HoldState::held) { // resumed at the machine
+        hold_.state = HoldState::none;
         message_.clear();
     }
 }

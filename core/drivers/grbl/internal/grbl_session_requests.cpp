@@ -45,7 +45,7 @@ void GrblSession::start(ProgramLines program,
                     {},
                     mode == "G51" ? "cancel it with G50" : "cancel it with G8");
     }
-    if (length_left_ && has_tool_length()) {
+    if (tool_length_.left && has_tool_length()) {
         throw Error("the tool length offset of an earlier job is still active", {}, "cancel it with G49");
     }
     begin_job(std::move(changes), program);
@@ -72,8 +72,8 @@ void GrblSession::begin(ProgramLines program, Activity activity, double now) {
     proof_closed_ = false;
     next_line_ = 0;
     stage_ = Stage::running;
-    hold_wanted_ = held_ = block_wait_ = false;
-    resume_sent_ = -1.0;
+    hold_ = {};
+    single_block_.waits = false;
     spare_welcomes_ = 0;
     message_.clear();
     readout_.modes.text.clear();
@@ -85,25 +85,25 @@ void GrblSession::begin(ProgramLines program, Activity activity, double now) {
 }
 
 void GrblSession::set_single_block(bool on) {
-    single_block_ = on;
+    single_block_.on = on;
     if (on && stage_ == Stage::running && at_ == Activity::program && !change_) {
-        block_wait_ = true;
+        single_block_.waits = true;
     }
 }
 
 /// Everything that was sent so far is done and the next line waits for resume().
 bool GrblSession::waits_between_blocks() const {
-    return block_wait_ && window_.empty() && tracker_.settled() && next_line_ < std::ssize(program_.lines);
+    return single_block_.waits && window_.empty() && tracker_.settled() &&
+           next_line_ < std::ssize(program_.lines);
 }
 
 void GrblSession::hold(double now) {
     if (checks()) {
         return; // nothing moves
     }
-    if ((stage_ == Stage::running || stage_ == Stage::foreign) && !hold_wanted_) {
-        hold_wanted_ = true;
-        held_ = false;
-        hold_sent_ = now;
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_.state == HoldState::none) {
+        hold_.state = HoldState::wanted;
+        hold_.sent = now;
         output_ += hold_byte();
     } else if (stage_ == Stage::jogging) {
         stop_jog(now);
@@ -116,15 +116,15 @@ void GrblSession::hold(double now) {
 
 void GrblSession::resume(double now) {
     if (stage_ == Stage::running && waits_between_blocks()) {
-        block_wait_ = false;
+        single_block_.waits = false;
         last_answer_ = now;
         idle_unanswered_ = 0;
         pump();
         return;
     }
-    if ((stage_ == Stage::running || stage_ == Stage::foreign) && (hold_wanted_ || held_)) {
-        hold_wanted_ = held_ = false;
-        resume_sent_ = now;
+    if ((stage_ == Stage::running || stage_ == Stage::foreign) && hold_.state != HoldState::none) {
+        hold_.state = HoldState::none;
+        hold_.resumed = now;
         message_.clear();
         output_ += resume_byte();
         pump();
@@ -178,8 +178,8 @@ void GrblSession::emergency_stop(double now) {
         doubt_.arise("an emergency stop interrupted the motion");
     }
     stage_ = Stage::flushing;
-    ending_in_fault_ = true;
-    ending_message_ = message_ = "emergency stop";
+    ending_.in_fault = true;
+    ending_.message = message_ = "emergency stop";
     ending_since_ = now;
     send_reset(now);
 }

@@ -19,11 +19,12 @@ DriverState GrblSession::state() const {
                : waits_for_tool() || change_->held || held_at_machine() ? DriverState::holding
                                                                         : DriverState::running;
     case Stage::running:
-        return hold_wanted_ || held_ || waits_between_blocks() ? DriverState::holding : DriverState::running;
+        return hold_.state != HoldState::none || waits_between_blocks() ? DriverState::holding
+                                                                        : DriverState::running;
     case Stage::foreign:
-        return hold_wanted_ || held_ ? DriverState::holding : DriverState::running;
+        return hold_.state != HoldState::none ? DriverState::holding : DriverState::running;
     case Stage::asking_again:
-        return after_asking_ == Stage::stopped                   ? DriverState::stopping
+        return asking_.then == Stage::stopped                    ? DriverState::stopping
                : (change_ && change_->held) || held_at_machine() ? DriverState::holding
                                                                  : DriverState::running;
     case Stage::jogging:
@@ -123,7 +124,7 @@ void GrblSession::show_change(DriverStatus& status) const {
     const int done = change_->next_line;
     status.sent_blocks = status.executed_blocks = done > 0 ? program.blocks_before(done) : 0;
     status.block = std::min(program.blocks_before(done), program.blocks - 1);
-    const bool keeps_zero = changes_->plan.way == ToolChangeWay::probe && reference_z_;
+    const bool keeps_zero = changes_->plan.way == ToolChangeWay::probe && tool_length_.reference_z;
     status.tool_change =
         ToolChangeStatus{.waits = waits_for_tool(), .held = change_->held, .keeps_zero = keeps_zero};
     if (stage_ != Stage::running && held_at_machine()) {

@@ -61,11 +61,11 @@ double EmulatedController::next_event() const {
     const auto consider = [&](double time) { next = time > time_ ? std::min(next, time) : next; };
     consider(busy_until_);
     consider(writing_until_);
-    if (dwell_) {
-        consider(*dwell_);
+    if (line_.dwell) {
+        consider(*line_.dwell);
     }
-    if (door_restore_) {
-        consider(*door_restore_);
+    if (door_.restore) {
+        consider(*door_.restore);
     }
     if (homing_) {
         consider(time_ + homing_->rest());
@@ -109,17 +109,17 @@ void EmulatedController::after_motion() {
             run_startup_lines(); // the answer to $H follows when these are done
         }
     }
-    if (door_restore_ && time_ >= *door_restore_ - rounding) {
-        door_restore_.reset();
+    if (door_.restore && time_ >= *door_.restore - rounding) {
+        door_.restore.reset();
         state_ = stepper_.at_rest() && planner_.empty() ? State::idle : State::run;
         stepper_.resume();
     }
     if (jog_cancel_ && stepper_.at_rest()) {
         jog_cancel_ = false;
-        if (build_.is(EmulatedFirmware::fluidnc) && !tasks_.empty()) {
+        if (build_.is(EmulatedFirmware::fluidnc) && !line_.tasks.empty()) {
             acknowledge(error_code::jog_cancelled);
         }
-        tasks_.clear();
+        line_.tasks.clear();
         stepper_.halt();
         modes_.position = stepper_.position();
         state_ = state_ == State::door ? State::door : State::idle;
@@ -127,7 +127,7 @@ void EmulatedController::after_motion() {
     if (trip_ && stepper_.at_rest()) {
         alarm(*std::exchange(trip_, std::nullopt));
     }
-    if (probing_ && stepper_.at_rest() && (probe_.touched || planner_.empty())) {
+    if (line_.probing && stepper_.at_rest() && (probe_.touched || planner_.empty())) {
         finish_probe(probe_.touched);
     }
     const bool finished = stepper_.at_rest() && planner_.empty();
@@ -139,8 +139,7 @@ void EmulatedController::after_motion() {
 /// Grbl's main loop, until it has nothing to do or has to wait.
 void EmulatedController::work() {
     while (!writing()) {
-        if (status_asked_ && !homing_ && !critical_) {
-            status_asked_ = false;
+        if (asked_ != StatusQuery::none && !homing_ && !critical_) {
             report_status();
         }
         if (override_flags_.any() && !homing_ && !critical_) {
@@ -151,7 +150,7 @@ void EmulatedController::work() {
         if (critical_ || suspended || homing_ || state_ == State::sleep) {
             return;
         }
-        if (answer_due_ || !tasks_.empty()) {
+        if (line_.answer_due || !line_.tasks.empty()) {
             if (!do_tasks()) {
                 return;
             }
@@ -182,8 +181,8 @@ void EmulatedController::execute(const InputLine& line) {
     if (options_.echo) {
         say(fmt::format("[echo:{}]\r\n", line.text));
     }
-    answer_due_ = true;
-    line_arrived_ = line.arrived;
+    line_.answer_due = true;
+    line_.arrived = line.arrived;
     int error = 0;
     if (line.text.starts_with('$')) {
         error = system_command(line.text);
@@ -194,8 +193,8 @@ void EmulatedController::execute(const InputLine& line) {
     }
     last_error_ = build_.is(EmulatedFirmware::grblhal) ? error : 0;
     if (error != 0) {
-        answer_due_ = false;
-        tasks_.clear();
+        line_.answer_due = false;
+        line_.tasks.clear();
         acknowledge(error);
     }
 }
@@ -207,16 +206,16 @@ int EmulatedController::execute_gcode(const std::string& text) {
     }
     if (options_.keep_truth && state_ != State::check) {
         truth_.push_back({text, time_, -1.0});
-        line_owner_ = static_cast<std::int64_t>(truth_.size()) - 1;
-        blocks_left_[line_owner_] = 1; // the line itself, until all of its tasks are done
+        line_.owner = static_cast<std::int64_t>(truth_.size()) - 1;
+        blocks_left_[line_.owner] = 1; // the line itself, until all of its tasks are done
     }
-    line_number_ = parsed.line_number;
+    line_.number = parsed.line_number;
     take_over(parsed);
     return 0;
 }
 
 void EmulatedController::acknowledge(int error) {
-    answer_due_ = false;
+    line_.answer_due = false;
     say(error == 0 ? std::string("ok\r\n") : fmt::format("error:{}\r\n", error));
 }
 
@@ -248,7 +247,7 @@ void EmulatedController::watch_limits() {
 }
 
 void EmulatedController::watch_probe(const Axes& before) {
-    if (!probing_ || probe_.touched || !options_.surface) {
+    if (!line_.probing || probe_.touched || !options_.surface) {
         return;
     }
     const bool toward = modes_.motion == 382 || modes_.motion == 383;

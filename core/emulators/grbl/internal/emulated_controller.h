@@ -105,6 +105,23 @@ private:
     void watch_probe(const Axes& before);
     void say(std::string_view text) { output_ += text; }
 
+    /// The line being executed, with what of it waits.
+    struct ExecutedLine {
+        std::deque<Task> tasks;
+        bool answer_due = false;     ///< it is acknowledged when its tasks are done
+        std::int64_t owner = -1;     ///< its number in the truth log
+        int number = 0;              ///< its N word
+        double arrived = 0.0;        ///< with its end
+        std::optional<double> dwell; ///< until this time
+        bool probing = false;
+        bool paused = false; ///< by M0
+    };
+    struct Door {
+        bool open = false;
+        std::optional<double> restore; ///< spindle and coolant come back until this time
+    };
+    enum class StatusQuery { none, usual, all }; ///< all: of a grblHAL, every field
+
     GrblEmulatorOptions options_;
     Build build_;
     Eeprom eeprom_;
@@ -121,29 +138,20 @@ private:
     State state_ = State::idle;
     double time_ = 0.0;
     double busy_until_ = 0.0;    ///< reading and working out a line takes its time
-    double line_arrived_ = 0.0;  ///< the line being executed, with its end
     double writing_until_ = 0.0; ///< the EEPROM
     std::string output_;
 
-    std::deque<Task> tasks_;       ///< of the line being executed
-    bool answer_due_ = false;      ///< that line is acknowledged when its tasks are done
-    std::int64_t line_owner_ = -1; ///< its number in the truth log
-    int line_number_ = 0;          ///< its N word
-    std::optional<double> dwell_;  ///< until this time
-    bool probing_ = false;
-    bool paused_ = false; ///< by M0
+    ExecutedLine line_;
     std::optional<Homing> homing_;
-    bool status_asked_ = false;
-    bool all_asked_ = false; ///< of a grblHAL: every field
-    int last_error_ = 0;     ///< of a grblHAL, which refuses G-code with it until a $ line was right
+    StatusQuery asked_ = StatusQuery::none;
+    int last_error_ = 0; ///< of a grblHAL, which refuses G-code with it until a $ line was right
     int last_alarm_ = 0;
     bool homed_ = false;
     bool critical_ = false; ///< only a reset helps
     bool jog_cancel_ = false;
     std::optional<int> trip_; ///< alarm to raise as soon as it is at rest
-    bool door_open_ = false;
-    std::optional<double> door_restore_; ///< spindle and coolant come back until this time
-    bool spindle_stopped_ = false;       ///< by the override
+    Door door_;
+    bool spindle_stopped_ = false; ///< by the override
     bool switches_broken_ = false;
     double last_motion_ = -1.0;
     int lost_bytes_ = 0;

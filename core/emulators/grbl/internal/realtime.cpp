@@ -74,7 +74,7 @@ bool EmulatedController::take_realtime(unsigned char byte) {
         }
         return true;
     case '?':
-        status_asked_ = status_asked_ || printable;
+        asked_ = printable ? std::max(asked_, StatusQuery::usual) : asked_;
         return printable;
     case '!':
         if (printable) {
@@ -97,8 +97,7 @@ bool EmulatedController::take_realtime(unsigned char byte) {
         return false;
     }
     if (byte == status_byte || byte == all_byte) {
-        status_asked_ = true;
-        all_asked_ = all_asked_ || byte == all_byte;
+        asked_ = std::max(asked_, byte == all_byte ? StatusQuery::all : StatusQuery::usual);
     } else if (byte == resume_byte) {
         resume();
     } else if (byte == hold_byte) {
@@ -123,14 +122,14 @@ void EmulatedController::stop_everything() {
     stepper_.halt();
     planner_.clear();
     planner_.stand_at(stepper_.position());
-    tasks_.clear();
+    line_.tasks.clear();
     pending_eeprom_.reset();
     blocks_left_.clear();
-    answer_due_ = false;
-    dwell_.reset();
-    door_restore_.reset();
+    line_.answer_due = false;
+    line_.dwell.reset();
+    door_.restore.reset();
     trip_.reset();
-    probing_ = paused_ = false;
+    line_.probing = line_.paused = false;
     jog_cancel_ = false;
     spindle_stopped_ = false;
     modes_.spindle = 50;
@@ -176,7 +175,7 @@ void EmulatedController::reset() {
     override_flags_.reset();
     planner_.set_overrides({});
     report_ = {};
-    status_asked_ = all_asked_ = false;
+    asked_ = StatusQuery::none;
     last_error_ = 0;
     critical_ = false;
     if (state_ != State::alarm && state_ != State::sleep) {
@@ -223,7 +222,7 @@ void EmulatedController::greet() {
         say(message("'$H'|'$X' to unlock", build_));
         return;
     }
-    if (door_open_) {
+    if (door_.open) {
         say(message("Check Door", build_));
         state_ = State::door;
         return;
@@ -238,7 +237,7 @@ void EmulatedController::run_startup_lines() {
         }
         const Parsed parsed = parse_line(line, modes_, eeprom_to_be(), build_);
         if (parsed.error == 0) {
-            line_owner_ = -1;
+            line_.owner = -1;
             take_over(parsed);
         }
         say(parsed.error == 0 ? fmt::format(">{}:ok\r\n", line)
@@ -271,12 +270,12 @@ void EmulatedController::resume() {
         stepper_.resume();
         state_ = planner_.empty() ? State::idle : State::run;
         start_cycle();
-    } else if (state_ == State::door && !door_open_ && !door_restore_) {
+    } else if (state_ == State::door && !door_.open && !door_.restore) {
         constexpr double spindle_delay = 4.0;
         constexpr double coolant_delay = 1.0;
         const double delay = (modes_.spindle != 50 ? spindle_delay : 0.0) +
                              (modes_.flood || modes_.mist ? coolant_delay : 0.0);
-        door_restore_ = time_ + delay;
+        door_.restore = time_ + delay;
         after_motion();
     }
 }
@@ -292,7 +291,7 @@ void EmulatedController::open_door() {
         jog_cancel_ = state_ == State::jog;
         state_ = State::door;
         stepper_.hold();
-        if (door_open_) {
+        if (door_.open) {
             say(message("Check Door", build_));
         }
         after_motion();
@@ -300,8 +299,8 @@ void EmulatedController::open_door() {
 }
 
 void EmulatedController::set_door(bool open) {
-    const bool opened = open && !door_open_;
-    door_open_ = open;
+    const bool opened = open && !door_.open;
+    door_.open = open;
     if (opened) {
         open_door();
     }
@@ -372,7 +371,7 @@ std::string_view EmulatedController::state_text() const {
     case State::alarm:
         return "Alarm";
     case State::door:
-        return door_restore_ ? "Door:3" : !stepper_.at_rest() ? "Door:2" : door_open_ ? "Door:1" : "Door:0";
+        return door_.restore ? "Door:3" : !stepper_.at_rest() ? "Door:2" : door_.open ? "Door:1" : "Door:0";
     case State::check:
         return "Check";
     case State::home:
@@ -406,13 +405,13 @@ void EmulatedController::report_status() {
                                        std::min(eeprom_.setting(least_rpm), eeprom_.setting(most_rpm)),
                                        eeprom_.setting(most_rpm))
                           : 0.0;
-    now.pins.append(door_open_ ? 1 : 0, 'D');
+    now.pins.append(door_.open ? 1 : 0, 'D');
     now.overrides = overrides_;
     now.accessories.append(turning ? 1 : 0, modes_.spindle == 30 ? 'S' : 'C');
     now.accessories.append(modes_.flood && !checks ? 1 : 0, 'F');
     now.accessories.append(modes_.mist && !checks ? 1 : 0, 'M');
     now.alarm = last_alarm_;
-    now.all = std::exchange(all_asked_, false);
+    now.all = std::exchange(asked_, StatusQuery::none) == StatusQuery::all;
     now.homed = homed_;
     now.tool = modes_.tool;
     now.work_system += modes_.coordinates;

@@ -57,7 +57,7 @@ int EmulatedController::named_command(std::string_view line) {
         stop_everything();
         say(message("Sleeping", build_));
         state_ = State::sleep;
-        answer_due_ = true;
+        line_.answer_due = true;
         acknowledge(error_code::none);
         return error_code::none;
     }
@@ -82,8 +82,8 @@ int EmulatedController::jog(std::string_view line) {
         return error_code::outside_travel;
     }
     state_ = State::jog;
-    line_owner_ = -1;
-    line_number_ = 0;
+    line_.owner = -1;
+    line_.number = 0;
     take_over(parsed);
     return error_code::none;
 }
@@ -105,7 +105,7 @@ int EmulatedController::check_mode() {
 
 int EmulatedController::unlock() {
     if (state_ == State::alarm) {
-        if (door_open_) {
+        if (door_.open) {
             return error_code::door_open;
         }
         if (needs_homing()) {
@@ -125,7 +125,7 @@ int EmulatedController::home(std::string_view line) {
     if (!eeprom_.is_on(homing_setting)) {
         return error_code::homing_off;
     }
-    if (door_open_) {
+    if (door_.open) {
         return error_code::door_open;
     }
     state_ = State::home;
@@ -162,8 +162,8 @@ int EmulatedController::restore(std::string_view what) {
         return error_code::unknown_command;
     }
     pending_eeprom_ = next;
-    tasks_.push_back({.action = Action::store});
-    tasks_.push_back({.action = Action::restart});
+    line_.tasks.push_back({.action = Action::store});
+    line_.tasks.push_back({.action = Action::restart});
     return error_code::none;
 }
 
@@ -184,12 +184,12 @@ int EmulatedController::startup_line(std::string_view line) {
     if (parsed.error != error_code::none) {
         return parsed.error;
     }
-    line_owner_ = -1;
-    line_number_ = 0;
+    line_.owner = -1;
+    line_.number = 0;
     take_over(parsed);
     pending_eeprom_ = eeprom_to_be();
     pending_eeprom_->startup_lines[line[2] == '0' ? 0 : 1] = code;
-    tasks_.push_back({.action = Action::store});
+    line_.tasks.push_back({.action = Action::store});
     return error_code::none;
 }
 
@@ -304,7 +304,7 @@ void EmulatedController::store(const Eeprom& eeprom) {
     if (pauses.empty() || !build_.is(EmulatedFirmware::grbl)) {
         return;
     }
-    const double begin = std::max(time_, line_arrived_);
+    const double begin = std::max(time_, line_.arrived);
     writing_until_ = std::accumulate(pauses.begin(), pauses.end(), begin);
     serial_line_.interrupts_off(begin, pauses);
     lost_bytes_ += input_.lose([this](double arrived) { return !serial_line_.takes(arrived); });

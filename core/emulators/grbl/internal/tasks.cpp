@@ -22,7 +22,7 @@ void EmulatedController::take_over(const Parsed& parsed) {
         if (state_ == State::check && !acts_in_check_mode(task)) {
             continue;
         }
-        tasks_.push_back(task);
+        line_.tasks.push_back(task);
         if (task.action == Action::store) {
             pending_eeprom_ = parsed.eeprom; // nothing is read before this line is done
         }
@@ -31,27 +31,27 @@ void EmulatedController::take_over(const Parsed& parsed) {
 
 /// Whether the line is done; then it is acknowledged.
 bool EmulatedController::do_tasks() {
-    while (!tasks_.empty()) {
+    while (!line_.tasks.empty()) {
         if (writing()) {
             return false;
         }
-        if (!do_task(tasks_.front())) {
+        if (!do_task(line_.tasks.front())) {
             start_cycle();
             return false;
         }
-        if (tasks_.empty()) { // an alarm has taken them away
+        if (line_.tasks.empty()) { // an alarm has taken them away
             return true;
         }
-        tasks_.pop_front();
+        line_.tasks.pop_front();
     }
     if (writing()) {
         return false;
     }
-    if (answer_due_) {
+    if (line_.answer_due) {
         acknowledge(0);
     }
-    block_done(line_owner_);
-    line_owner_ = -1;
+    block_done(line_.owner);
+    line_.owner = -1;
     return true;
 }
 
@@ -81,16 +81,16 @@ bool EmulatedController::do_task(Task& task) {
         if (!at_rest()) {
             return false;
         }
-        paused_ = !paused_;
-        state_ = paused_ ? State::hold : state_;
-        return !paused_;
+        line_.paused = !line_.paused;
+        state_ = line_.paused ? State::hold : state_;
+        return !line_.paused;
     case Action::tool:
         if (!at_rest()) {
             return false;
         }
-        paused_ = !paused_;
-        state_ = paused_ ? State::tool : state_;
-        return !paused_;
+        line_.paused = !line_.paused;
+        state_ = line_.paused ? State::tool : state_;
+        return !line_.paused;
     case Action::restart:
         say(message("Restoring defaults", build_));
         acknowledge(0);
@@ -163,10 +163,10 @@ bool EmulatedController::do_move(Task& task) {
                         .overridable = state_ != State::jog,
                         .rate = task.rate / seconds_per_minute * (task.inverse_time ? points : 1.0),
                         .inverse_time = task.inverse_time,
-                        .line_number = line_number_,
-                        .owner = line_owner_};
-        if (planner_.add(move) && line_owner_ >= 0) {
-            ++blocks_left_[line_owner_];
+                        .line_number = line_.number,
+                        .owner = line_.owner};
+        if (planner_.add(move) && line_.owner >= 0) {
+            ++blocks_left_[line_.owner];
         }
         ++task.next;
     }
@@ -174,22 +174,22 @@ bool EmulatedController::do_move(Task& task) {
 }
 
 bool EmulatedController::do_dwell(const Task& task) {
-    if (!dwell_) {
+    if (!line_.dwell) {
         if (!at_rest()) {
             return false;
         }
-        dwell_ = time_ + task.seconds;
+        line_.dwell = time_ + task.seconds;
     }
     constexpr double rounding = 1e-9;
-    if (time_ < *dwell_ - rounding) {
+    if (time_ < *line_.dwell - rounding) {
         return false;
     }
-    dwell_.reset();
+    line_.dwell.reset();
     return true;
 }
 
 bool EmulatedController::do_probe(const Task& task) {
-    if (probing_ || !at_rest()) {
+    if (line_.probing || !at_rest()) {
         return false;
     }
     const Axes& at = stepper_.position();
@@ -201,17 +201,17 @@ bool EmulatedController::do_probe(const Task& task) {
         probe_alarm(wrong_beginning);
         return true;
     }
-    probing_ = planner_.add({.target = task.points.front(),
-                             .overridable = false,
-                             .rate = task.rate / seconds_per_minute,
-                             .inverse_time = task.inverse_time,
-                             .line_number = line_number_,
-                             .owner = -1});
-    return !probing_;
+    line_.probing = planner_.add({.target = task.points.front(),
+                                  .overridable = false,
+                                  .rate = task.rate / seconds_per_minute,
+                                  .inverse_time = task.inverse_time,
+                                  .line_number = line_.number,
+                                  .owner = -1});
+    return !line_.probing;
 }
 
 void EmulatedController::finish_probe(bool touched) {
-    probing_ = false;
+    line_.probing = false;
     stepper_.halt();
     const bool must = modes_.motion == 382 || modes_.motion == 384;
     modes_.position = stepper_.position();
@@ -224,8 +224,8 @@ void EmulatedController::finish_probe(bool touched) {
         }
     }
     say(probe_report(probe_, eeprom_, build_));
-    if (!tasks_.empty()) {
-        tasks_.pop_front();
+    if (!line_.tasks.empty()) {
+        line_.tasks.pop_front();
     }
     state_ = state_ == State::run ? State::idle : state_;
 }

@@ -132,7 +132,7 @@ bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
     const bool moves = stage_ == Stage::moving_by_command || (rests() && !standing());
     if ((busy || (moves && (system_1_ & program_runs) != 0)) && are_all(lines, only_kills)) {
         fail("a command disabled the motors");
-    } else if ((busy || (moves && plcs_run_)) && are_all(lines, only_stops)) {
+    } else if ((busy || (moves && power_.plcs_run)) && are_all(lines, only_stops)) {
         halt();
     } else if (stage_ == Stage::commanding && are_all(lines, only_disables_plcs)) {
         switch_plcs_off();
@@ -149,7 +149,7 @@ bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
 bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
     std::string key = given.size() == 1 ? given.front() : "";
     std::erase(key, ' ');
-    const bool heard = stage_ != Stage::closed && stage_ != Stage::greeting && !link_lost_;
+    const bool heard = stage_ != Stage::closed && stage_ != Stage::greeting && !link_lost();
     if (!heard || key.size() != 2 || key.front() != '^') {
         return false;
     }
@@ -158,7 +158,7 @@ bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
     case 'a':
         if (rests() && !standing()) {
             finish(Stage::stopping);
-            unbraked_ = true;
+            braking_.due = true;
         }
         halt();
         break;
@@ -173,7 +173,7 @@ bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
         break;
     case 'D':
     case 'd':
-        if (buffer_open_ || stage_ == Stage::loading) {
+        if (exchange_.buffer_open || stage_ == Stage::loading) {
             halt();
         }
         switch_plcs_off();
@@ -257,9 +257,9 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
             {},
             "inspect the machine, then enable its motors");
     }
-    command_lines_.clear();
+    command_.lines.clear();
     finish(Stage::stopping);
-    unbraked_ = true; // the next report tells which move
+    braking_.due = true; // the next report tells which move
     answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
     return true;
 }
@@ -327,7 +327,7 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
         return answer_.number;
     }
     check_programs(lines, all);
-    if (plcs_run_ && are_all(lines, only_kills)) {
+    if (power_.plcs_run && are_all(lines, only_kills)) {
         lines.insert(lines.begin(), disable_plcs); // else they would give the power back
     }
     const bool waits = answer_.state == drivers::CommandAnswer::State::pending;
@@ -338,7 +338,7 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     const bool moves = stage_ == Stage::moving_by_command || (rests() && !standing());
     if (moves && !asks && are_all(lines, only_ends_motion)) {
         finish(Stage::commanding);
-    } else if (stage_ == Stage::alarm && !waits && !link_lost_ && are_all(lines, is_taken_in_alarm)) {
+    } else if (stage_ == Stage::alarm && !waits && !link_lost() && are_all(lines, is_taken_in_alarm)) {
         // nothing has power: what a test of a motor had borrowed is given back
     } else if (waits || !asks || !(active() || moves) || stage_ == Stage::loading) {
         require_rest("a command");
@@ -354,11 +354,11 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
 /// before it refuses what stands behind its number.
 void PmacSession::skip_buffer() {
     constexpr std::size_t named = 10;
-    const auto close = std::ranges::find_if(command_lines_, closes_buffer);
-    const std::vector<std::string> skipped(command_lines_.begin(), close);
-    command_lines_.erase(command_lines_.begin(), close);
-    if (command_lines_.empty()) {
-        command_lines_.emplace_back("CLOSE");
+    const auto close = std::ranges::find_if(command_.lines, closes_buffer);
+    const std::vector<std::string> skipped(command_.lines.begin(), close);
+    command_.lines.erase(command_.lines.begin(), close);
+    if (command_.lines.empty()) {
+        command_.lines.emplace_back("CLOSE");
     }
     for (std::size_t n = 0; n < std::min(named, skipped.size()); ++n) {
         answer_.text += fmt::format("\n'{}' is not executed: its buffer was not opened", skipped[n]);
@@ -377,23 +377,24 @@ void PmacSession::skip_buffer() {
 
 void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
     answer_ = {answer_.number + 1, drivers::CommandAnswer::State::pending, {}};
-    command_goes_on_ = all;
-    command_refused_ = false;
-    command_lines_.assign(lines.begin(), lines.end());
-    only_set_ = std::all_of(lines.begin(), lines.end(), only_sets);
-    stays_armed_ = stays_armed_ || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-                       return may_move_later(line, settings_.system);
-                   });
+    command_.goes_on = all;
+    command_.refused = false;
+    command_.lines.assign(lines.begin(), lines.end());
+    command_.only_sets = std::all_of(lines.begin(), lines.end(), only_sets);
+    watchdog_.stays_armed =
+        watchdog_.stays_armed || std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+            return may_move_later(line, settings_.system);
+        });
     bool stored = false;
     for (const std::string& line : lines) {
         stored = opens_buffer(line) || (stored && !closes_buffer(line));
-        plcs_run_ = plcs_run_ || (!stored && enables_plc(line));
+        power_.plcs_run = power_.plcs_run || (!stored && enables_plc(line));
     }
     int addressed = 0;
-    closes_loops_ = false;
+    command_.closes_loops = false;
     for (const std::string& line : lines) {
         for (const PowerChange& change : power_changes_of(line, addressed)) {
-            closes_loops_ = closes_loops_ || change.given;
+            command_.closes_loops = command_.closes_loops || change.given;
             for (std::size_t n = 0; n < motors_.size() && change.given; ++n) {
                 const bool other = change.motor && *change.motor != settings_.axes[n].motor;
                 motors_[n].gets_power = motors_[n].gets_power || !other;
@@ -401,14 +402,14 @@ void PmacSession::begin_command(const std::vector<std::string>& lines, bool all)
             }
         }
     }
-    gave_power_ = gave_power_ || closes_loops_ || plcs_run_;
-    commanded_.clear();
+    power_.given = power_.given || command_.closes_loops || power_.plcs_run;
+    command_.text.clear();
     for (const std::string& line : lines) {
-        commanded_ += line + "\n";
+        command_.text += line + "\n";
     }
-    commanded_from_.clear();
+    command_.from.clear();
     for (const MotorState& motor : motors_) {
-        commanded_from_.push_back(motor.counts);
+        command_.from.push_back(motor.counts);
     }
     next_command();
 }

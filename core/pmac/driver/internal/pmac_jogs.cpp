@@ -112,7 +112,7 @@ void PmacSession::give_jog_speeds_back() {
 }
 
 void PmacSession::jog(const drivers::Jog& jog, double now) {
-    if (stage_ != Stage::jogging || jog_stopping_) {
+    if (stage_ != Stage::jogging || jogging_.stopping) {
         require_rest("a jog");
     }
     require_enabled("a jog");
@@ -168,7 +168,7 @@ void PmacSession::jog(const drivers::Jog& jog, double now) {
     if (stage_ != Stage::jogging) {
         finish(Stage::jogging);
     }
-    jog_until_ = held ? std::optional(now + jog.dead_man) : std::nullopt;
+    jogging_.until = held ? std::optional(now + jog.dead_man) : std::nullopt;
     quiet_polls_ = 0;
 }
 
@@ -177,7 +177,7 @@ void PmacSession::stop_jog(double /*now*/) {
 }
 
 void PmacSession::halt_jog() {
-    if (stage_ != Stage::jogging || jog_stopping_) {
+    if (stage_ != Stage::jogging || jogging_.stopping) {
         return;
     }
     forget_queue();
@@ -186,8 +186,8 @@ void PmacSession::halt_jog() {
     } else {
         kill();
     }
-    jog_stopping_ = true;
-    jog_until_.reset();
+    jogging_.stopping = true;
+    jogging_.until.reset();
     quiet_polls_ = 0;
 }
 

@@ -25,9 +25,9 @@ bool PmacSession::takes_power() const {
     case Parting::keeps_power:
         return false;
     case Parting::as_found:
-        return !found_power_ && (any_power() || gave_power_);
+        return !power_.found && (any_power() || power_.given);
     case Parting::takes_power:
-        return any_power() || plcs_run_ || (gave_power_ && under_way);
+        return any_power() || power_.plcs_run || (power_.given && under_way);
     }
     return true;
 }
@@ -40,17 +40,17 @@ void PmacSession::leave(double now) {
     if (stage_ == Stage::greeting) {
         return;
     }
-    if (link_lost_) {
+    if (link_lost()) {
         farewell_ = any_power()
                         ? "the connection is lost, so it is unknown whether the motors are still enabled"
                         : "";
         return;
     }
-    stays_armed_ = false; // else the guard would take the power of motors that are to keep it
+    watchdog_.stays_armed = false; // else the guard would take the power of motors that are to keep it
     if (stage_ != Stage::alarm) {
         halt();
     }
-    leaving_ = true;
+    leaving_ = leaving_.value_or(Leaving{});
     part(now);
 }
 
@@ -59,57 +59,53 @@ void PmacSession::part(double now) {
     if (!leaving_ || stage_ == Stage::stopping) {
         return;
     }
-    if (!kill_by_) {
+    if (!leaving_->kill_by) {
         if (!takes_power()) {
-            end_leaving();
+            leaving_.reset();
             return;
         }
         forget_all();
         kill();
         ask("CLOSE");
-        plcs_run_ = true; // a program of the card may have enabled one, too
+        power_.plcs_run = true; // a program of the card may have enabled one, too
         ask(disable_plcs);
         give_jog_speeds_back();
         finish(Stage::parting);
-        kill_by_ = now + kill_patience;
-        quiet_reports_ = 0;
+        leaving_->kill_by = now + kill_patience;
         return;
     }
-    const bool over = now > *kill_by_;
-    if (quiet_reports_ >= enough_reports && (over || (queue_.empty() && talk_.idle()))) {
+    const bool over = now > *leaving_->kill_by;
+    if (leaving_->quiet_reports >= enough_reports && (over || (queue_.empty() && talk_.idle()))) {
         finish(Stage::stopped);
-        end_leaving();
+        leaving_.reset();
     } else if (over) {
         farewell_ = "the card did not report that its motors are disabled";
         finish(Stage::alarm, farewell_);
-        end_leaving();
+        leaving_.reset();
     } else {
         stage_ = Stage::parting; // whatever was wrong with an answer, the next one may tell it
     }
-}
-
-void PmacSession::end_leaving() {
-    leaving_ = false;
-    kill_by_.reset();
 }
 
 /// A report that was asked for after the kill.
 void PmacSession::watch_parting() {
     if (any_power()) {
         kill(); // what was sent may have been lost
-        quiet_reports_ = 0;
-    } else if (!plcs_run_) {
-        ++quiet_reports_;
+    }
+    if (leaving_ && any_power()) {
+        leaving_->quiet_reports = 0;
+    } else if (leaving_ && !power_.plcs_run) {
+        ++leaving_->quiet_reports;
     }
 }
 
 /// All but the guard, before what else is to be asked: they would move what is just stopped. A buffer that is
 /// open is closed; of a command nothing more is sent then, since its lines would act at once.
 void PmacSession::switch_plcs_off() {
-    plcs_run_ = true;
+    power_.plcs_run = true;
     queue_.push_front({disable_plcs, Kind::step, 0});
-    if (buffer_open_) {
-        command_lines_.clear();
+    if (exchange_.buffer_open) {
+        command_.lines.clear();
         std::erase_if(queue_, [](const Request& request) { return request.kind == Kind::command; });
         queue_.push_front({"CLOSE", Kind::step, 0});
     }

@@ -84,11 +84,11 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
     }
     answer_ = {answer_.number, drivers::CommandAnswer::State::none, {}}; // of a line before it
     finish(Stage::loading);
-    program_lines_ = static_cast<int>(lines.size());
-    executed_ = 0;
+    run_.lines = static_cast<int>(lines.size());
+    run_.executed = 0;
     mark_ = 0.0;
-    marks_tell_ = std::none_of(lines.begin(), lines.end(), may_leave_order);
-    armed_ = false; // no sign of life is heard while a buffer is open
+    run_.marks_tell = std::none_of(lines.begin(), lines.end(), may_leave_order);
+    watchdog_.armed = false; // no sign of life is heard while a buffer is open
     for (const std::string& line : {std::string(disarm_watchdog),
                                     std::string("CLOSE"),
                                     fmt::format("OPEN PROG {}", settings_.program),
@@ -96,14 +96,14 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
                                     std::string("P1000=0")}) {
         ask(line, Kind::program);
     }
-    for (int n = 0; n < program_lines_; ++n) {
-        if (marks_tell_) {
+    for (int n = 0; n < run_.lines; ++n) {
+        if (run_.marks_tell) {
             ask(fmt::format("P1000={}", n + 1), Kind::program);
         }
         ask(lines[static_cast<std::size_t>(n)], Kind::program);
     }
     ask("DWELL0", Kind::program); // waits for all motion
-    ask(fmt::format("P1000={}", program_lines_ + 1), Kind::program);
+    ask(fmt::format("P1000={}", run_.lines + 1), Kind::program);
     ask("CLOSE", Kind::program);
     ask("P1000=0");
     arm();
@@ -111,18 +111,18 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
 }
 
 void PmacSession::hold(double now) {
-    if (stage_ == Stage::running && !held_) {
+    if (stage_ == Stage::running && !run_.held) {
         ask(fmt::format("&{}H", settings_.system));
-        held_ = true;
+        run_.held = true;
     } else if (stage_ == Stage::jogging) {
         stop_jog(now);
     }
 }
 
 void PmacSession::resume(double /*now*/) {
-    if (stage_ == Stage::running && held_) {
+    if (stage_ == Stage::running && run_.held) {
         ask(fmt::format("&{}R", settings_.system));
-        held_ = false;
+        run_.held = false;
         message_.clear();
     }
 }
@@ -147,19 +147,19 @@ void PmacSession::halt() {
         ask(every_motor("J/"));
         finish(Stage::stopping);
     } else if (stage_ == Stage::commanding || stage_ == Stage::moving_by_command ||
-               (rests() && (armed_ || !queue_.empty()))) {
-        command_lines_.clear();
+               (rests() && (watchdog_.armed || !queue_.empty()))) {
+        command_.lines.clear();
         finish(Stage::stopping);
-        unbraked_ = true; // the next report tells what the command set going
+        braking_.due = true; // the next report tells what the command set going
     }
-    if (plcs_run_) {
+    if (power_.plcs_run) {
         switch_plcs_off();
     }
 }
 
 /// What a command set going: the motors with power alone, since J/ would give it to the others, too.
 void PmacSession::brake() {
-    unbraked_ = false;
+    braking_.due = false;
     if ((system_1_ & 1U) != 0) { // a program runs
         ask(fmt::format("&{}{}", settings_.system, enabled() ? "A" : "H"));
     }
@@ -182,13 +182,13 @@ void PmacSession::forget_queue() {
 }
 
 void PmacSession::emergency_stop(double /*now*/) {
-    if (stage_ != Stage::closed && !link_lost_) {
+    if (stage_ != Stage::closed && !link_lost()) {
         fail("emergency stop");
     }
 }
 
 void PmacSession::reset(double /*now*/) {
-    if (stage_ == Stage::alarm && !link_lost_) {
+    if (stage_ == Stage::alarm && !link_lost()) {
         finish(Stage::ready);
         was_home_ = position_known();
     }
@@ -216,11 +216,11 @@ void PmacSession::home_axis(std::size_t n) {
     double place = -way * before_flag_deg;
     place = std::clamp(
         place, std::min(0.0, axis.min_deg.value_or(place)), std::max(0.0, axis.max_deg.value_or(place)));
-    homing_axis_ = n;
-    homing_from_ = motors_[n].counts;
-    homing_backs_off_ = motors_[n].home() && way * (motors_[n].counts / axis.counts_per_degree - place) > 0.0;
+    homing_.axis = n;
+    homing_.from = motors_[n].counts;
+    homing_.backs_off = motors_[n].home() && way * (motors_[n].counts / axis.counts_per_degree - place) > 0.0;
     quiet_polls_ = 0;
-    if (homing_backs_off_) {
+    if (homing_.backs_off) {
         set_jog_speed(n, most_jog_speed(n));
         ask(fmt::format("#{}J={:.0f}", axis.motor, place * axis.counts_per_degree));
     } else {
@@ -233,13 +233,13 @@ void PmacSession::enable(double /*now*/) {
     if (!guard_.runs()) {
         throw Error(guard_is_off, {}, "connect again, which rewrites the guard");
     }
-    gave_power_ = true;
+    power_.given = true;
     ask(every_motor("J/"));
     power_polls_ = patient_polls;
 }
 
 void PmacSession::set_overrides(const drivers::Overrides& wanted) {
-    if (stage_ == Stage::closed || link_lost_ || !greeted()) {
+    if (stage_ == Stage::closed || link_lost() || !greeted()) {
         throw Error("the PMAC is not connected, so overrides are not possible");
     }
     constexpr int most = 100; // faster than programmed is no business of a hand

@@ -35,7 +35,7 @@ bool starts_with_word(const std::string& line, std::string_view word) {
 
 void PmacSession::opened(double now) {
     stage_ = Stage::greeting;
-    link_lost_ = heard_ = false;
+    link_ = Link::silent;
     message_.clear();
     queue_.clear();
     sent_.reset();
@@ -44,10 +44,13 @@ void PmacSession::opened(double now) {
     greeting_heard_.clear();
     greet_at_ = opened_at_ = now;
     host_stall_.begin(now);
-    buffer_open_ = polled_ = was_home_ = armed_ = homing_backs_off_ = look_first_ = false;
-    found_power_ = gave_power_ = stays_armed_ = plcs_run_ = false;
+    exchange_ = {};
+    homing_ = {};
+    watchdog_ = {};
+    power_ = {};
+    polled_ = was_home_ = false;
     guard_.forget();
-    end_leaving();
+    leaving_.reset();
     own_jog_speeds_.assign(motors_.size(), std::nullopt);
     addresses_ = fmt::format("#1&{}", settings_.system);
     answer_ = {};
@@ -57,10 +60,11 @@ void PmacSession::opened(double now) {
 void PmacSession::lost(const std::string& why) {
     const bool spoke = stage_ != Stage::greeting; // else nothing was sent that moves a motor
     finish(Stage::alarm, links::loss_sentence(why) + (spoke ? "; the card stops its motors on its own" : ""));
-    link_lost_ = unseen_ = true;
+    link_ = Link::lost;
+    unseen_ = true;
     if (leaving_) {
         farewell_ = "the connection was lost before the card reported that its motors are disabled";
-        end_leaving();
+        leaving_.reset();
     }
     talk_.forget();
     queue_.clear();
@@ -70,7 +74,7 @@ void PmacSession::lost(const std::string& why) {
 
 void PmacSession::closed() {
     stage_ = Stage::closed;
-    link_lost_ = false;
+    link_ = Link::silent;
     queue_.clear();
     sent_.reset();
     talk_.forget();
@@ -99,12 +103,12 @@ bool PmacSession::is_ours(Kind kind) {
 
 /// What moves nothing, and lines of a buffer, which a card that was reset refuses.
 bool PmacSession::may_repeat(Kind kind) const {
-    return buffer_open_ || stage_ == Stage::greeting ||
+    return exchange_.buffer_open || stage_ == Stage::greeting ||
            !(kind == Kind::step || kind == Kind::run || kind == Kind::command);
 }
 
 void PmacSession::receive(std::string_view bytes, double now) {
-    heard_ = heard_ || !bytes.empty();
+    link_ = link_ == Link::silent && !bytes.empty() ? Link::heard : link_;
     if (stage_ == Stage::greeting && talk_.idle()) {
         greeting_heard_ += bytes;
     }
@@ -170,7 +174,7 @@ void PmacSession::make_guard(const std::vector<std::string>& servo_time) {
 }
 
 void PmacSession::tick(double now) {
-    if (stage_ == Stage::closed || link_lost_) {
+    if (stage_ == Stage::closed || link_lost()) {
         return;
     }
     if (stage_ == Stage::greeting) {
@@ -180,7 +184,7 @@ void PmacSession::tick(double now) {
     if (const GuardedLine::Reply reply = talk_.poll(now); reply.outcome != GuardedLine::Outcome::none) {
         handle(reply, now);
     }
-    if (jog_until_ && now > *jog_until_) {
+    if (jogging_.until && now > *jogging_.until) {
         stop_jog(now);
     }
     watch_time(now);
@@ -195,9 +199,9 @@ void PmacSession::tick(double now) {
 void PmacSession::watch_time(double now) {
     constexpr double braking = 10.0; // s
     const double greeting = 10.0 + 3.0 * settings_.patience;
-    if (stage_ == Stage::stopping && !brake_by_) {
-        brake_by_ = now + braking;
-    } else if (stage_ == Stage::stopping && now > *brake_by_) {
+    if (stage_ == Stage::stopping && !braking_.by) {
+        braking_.by = now + braking;
+    } else if (stage_ == Stage::stopping && now > *braking_.by) {
         fail("the motors do not come to rest, or the connection is too slow to report it");
     } else if (stage_ == Stage::greeting && now > opened_at_ + greeting) {
         queue_.clear();
@@ -208,13 +212,13 @@ void PmacSession::watch_time(double now) {
 void PmacSession::ask_something(double now) {
     // A command and the question for its addresses belong together; else the report comes first, but not
     // twice where the line is so slow that the next one is due when it comes.
-    const bool turn = queue_.empty() || (queue_.front().kind == Kind::command && !asked_poll_);
-    if (look_first_ && polled_ && !buffer_open_) {
-        look_first_ = false;
+    const bool turn = queue_.empty() || (queue_.front().kind == Kind::command && !exchange_.asked_poll);
+    if (exchange_.look_first && polled_ && !exchange_.buffer_open) {
+        exchange_.look_first = false;
         next_poll_ = now;
         queue_.push_front({poll_line(), Kind::poll, 0});
     }
-    const bool may_poll = turn && polled_ && !buffer_open_ && stage_ != Stage::greeting;
+    const bool may_poll = turn && polled_ && !exchange_.buffer_open && stage_ != Stage::greeting;
     if (may_poll && now >= next_poll_) {
         sent_ = Request{poll_line(), Kind::poll, 0};
         next_poll_ = now + poll_interval;
@@ -228,9 +232,9 @@ void PmacSession::ask_something(double now) {
     } else {
         return;
     }
-    asked_poll_ = sent_->kind == Kind::poll;
-    const bool addressed = sent_->kind == Kind::command && !buffer_open_;
-    buffer_open_ = buffer_open_ || starts_with_word(sent_->line, "OPEN");
+    exchange_.asked_poll = sent_->kind == Kind::poll;
+    const bool addressed = sent_->kind == Kind::command && !exchange_.buffer_open;
+    exchange_.buffer_open = exchange_.buffer_open || starts_with_word(sent_->line, "OPEN");
     tell(true, is_ours(sent_->kind) ? drivers::ConsoleKind::query : drivers::ConsoleKind::line, sent_->line);
     const bool lively = shows_life(*sent_);
     // A number behind the addresses would be read as a part of the last one.
@@ -247,9 +251,10 @@ void PmacSession::ask_something(double now) {
 bool PmacSession::shows_life(const Request& request) const {
     const bool jogs_on = request.kind == Kind::step && stage_ == Stage::jogging;
     const std::string& line = request.line;
-    const bool of_buffers = buffer_open_ || starts_with_word(line, "OPEN") || starts_with_word(line, "CLOSE");
-    return (jogs_on || (armed_ && stage_ != Stage::alarm)) && !of_buffers && !line.starts_with('&') &&
-           !line.starts_with(sign_of_life);
+    const bool of_buffers =
+        exchange_.buffer_open || starts_with_word(line, "OPEN") || starts_with_word(line, "CLOSE");
+    return (jogs_on || (watchdog_.armed && stage_ != Stage::alarm)) && !of_buffers &&
+           !line.starts_with('&') && !line.starts_with(sign_of_life);
 }
 
 void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
@@ -273,14 +278,15 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
         if (request.tries < most_tries) {
             queue_.push_front(request);
             ++queue_.front().tries;
-            look_first_ = true;
+            exchange_.look_first = true;
             break;
         }
         [[fallthrough]];
     default:
         if (stage_ == Stage::greeting) {
             queue_.clear();
-            finish(Stage::alarm, heard_ ? "the device that answers is not a PMAC" : "no PMAC answers");
+            finish(Stage::alarm,
+                   link_ == Link::heard ? "the device that answers is not a PMAC" : "no PMAC answers");
         } else if (request.kind == Kind::command && request.line.starts_with("$$$")) {
             fail("the card was reset: its saved settings are active, and it does not know the position of "
                  "the arm");
@@ -296,9 +302,9 @@ void PmacSession::handle(const GuardedLine::Reply& reply, double now) {
 
 void PmacSession::answered(const Request& request, const std::vector<std::string>& lines, double now) {
     if (starts_with_word(request.line, "CLOSE")) {
-        buffer_open_ = false;
+        exchange_.buffer_open = false;
     }
-    plcs_run_ = plcs_run_ && request.line != disable_plcs;
+    power_.plcs_run = power_.plcs_run && request.line != disable_plcs;
     switch (request.kind) {
     case Kind::poll:
         read_poll(lines, now);
@@ -325,7 +331,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         for (const std::string& line : lines) {
             answer_.text += (answer_.text.empty() ? "" : "\n") + line;
         }
-        if (buffer_open_) {
+        if (exchange_.buffer_open) {
             next_command();
         } else {
             ask("#&", Kind::address);
@@ -341,7 +347,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         explain_open_loop(run_refusal_ + loop_advice(lines));
         break;
     case Kind::watch:
-        mark_is_ours_ = mark_is_ours_ || request.line == arm_watchdog;
+        watchdog_.mark_is_ours = watchdog_.mark_is_ours || request.line == arm_watchdog;
         break;
     case Kind::run:
         stage_ = stage_ == Stage::loading ? Stage::running : stage_;
@@ -354,29 +360,30 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
 void PmacSession::refused_command(const Request& request, bool loop_is_open, const std::string& why) {
     const bool opens = starts_with_word(request.line, "OPEN");
     const std::string lacks =
-        buffer_open_ && !opens ? fmt::format("; the program of '{}' is stored {} this line and is incomplete",
-                                             opened_by_,
-                                             command_goes_on_ ? "without" : "only up to")
-                               : "";
-    if (command_goes_on_) {
+        exchange_.buffer_open && !opens
+            ? fmt::format("; the program of '{}' is stored {} this line and is incomplete",
+                          command_.opened_by,
+                          command_.goes_on ? "without" : "only up to")
+            : "";
+    if (command_.goes_on) {
         answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
-        command_refused_ = true;
+        command_.refused = true;
         if (opens) {
             skip_buffer();
         }
         next_command();
         return;
     }
-    command_lines_.clear();
+    command_.lines.clear();
     if (loop_is_open) {
-        if (buffer_open_) {
+        if (exchange_.buffer_open) {
             ask("CLOSE");
         }
         ask_whose_loop_is_open(why);
         return;
     }
     answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
-    if (buffer_open_) {
+    if (exchange_.buffer_open) {
         ask("CLOSE");
     }
     finish_command(drivers::CommandAnswer::State::refused);
@@ -384,7 +391,7 @@ void PmacSession::refused_command(const Request& request, bool loop_is_open, con
 
 void PmacSession::refused(const Request& request, int error) {
     if (starts_with_word(request.line, "CLOSE")) {
-        buffer_open_ = false;
+        exchange_.buffer_open = false;
     }
     constexpr int no_command = 3; // what the card also says of a motor that is switched off
     const bool of_motors = error == no_command && request.line.ends_with("J/");
@@ -433,33 +440,33 @@ void PmacSession::refused(const Request& request, int error) {
 }
 
 void PmacSession::next_command() {
-    if (command_lines_.empty()) {
-        if (buffer_open_) {
+    if (command_.lines.empty()) {
+        if (exchange_.buffer_open) {
             ask("CLOSE", Kind::command);
             return;
         }
-        finish_command(command_refused_ ? drivers::CommandAnswer::State::refused
+        finish_command(command_.refused ? drivers::CommandAnswer::State::refused
                                         : drivers::CommandAnswer::State::done);
         return;
     }
-    const bool opens = starts_with_word(command_lines_.front(), "OPEN");
-    opened_by_ = opens ? command_lines_.front() : opened_by_;
-    if (armed_ && opens) { // no sign of life is heard while a buffer is open
+    const bool opens = starts_with_word(command_.lines.front(), "OPEN");
+    command_.opened_by = opens ? command_.lines.front() : command_.opened_by;
+    if (watchdog_.armed && opens) { // no sign of life is heard while a buffer is open
         ask(disarm_watchdog, Kind::watch);
-        armed_ = false;
-    } else if (!armed_ && !buffer_open_ && !opens && stage_ != Stage::alarm &&
-               !only_asks(command_lines_.front())) {
+        watchdog_.armed = false;
+    } else if (!watchdog_.armed && !exchange_.buffer_open && !opens && stage_ != Stage::alarm &&
+               !only_asks(command_.lines.front())) {
         arm(); // what a person types may begin motion
     }
-    if (!buffer_open_ && jogs(command_lines_.front()) && !is_step(command_lines_.front())) {
+    if (!exchange_.buffer_open && jogs(command_.lines.front()) && !is_step(command_.lines.front())) {
         std::string question;
         for (const PmacAxis& axis : settings_.axes) {
             question += fmt::format("I{}22", axis.motor);
         }
         ask(std::move(question), Kind::jog_speeds);
     }
-    ask(command_lines_.front(), Kind::command);
-    command_lines_.pop_front();
+    ask(command_.lines.front(), Kind::command);
+    command_.lines.pop_front();
 }
 
 /// A short way of one motor: its speed is the card's.
@@ -480,7 +487,7 @@ void PmacSession::finish_command(drivers::CommandAnswer::State state) {
         motor.gets_power = false;
     }
     if (stage_ == Stage::commanding) {
-        finish(armed_ ? Stage::moving_by_command : Stage::ready);
+        finish(watchdog_.armed ? Stage::moving_by_command : Stage::ready);
         ask_ratings(); // it may have set some
     }
 }
@@ -517,8 +524,8 @@ std::optional<std::vector<std::string>> PmacSession::protections_off() const {
 /// From now on the card's watchdog stops the motors when it no longer hears us.
 void PmacSession::arm() {
     ask(arm_watchdog, Kind::watch);
-    armed_ = true;
-    mark_is_ours_ = false;
+    watchdog_.armed = true;
+    watchdog_.mark_is_ours = false;
     quiet_polls_ = 0;
 }
 

@@ -40,7 +40,7 @@ public:
 
     [[nodiscard]] drivers::DriverStatus status() const override;
     [[nodiscard]] bool greeted() const override { return stage_ != Stage::greeting; }
-    [[nodiscard]] bool link_lost() const override { return link_lost_; }
+    [[nodiscard]] bool link_lost() const override { return link_ == Link::lost; }
     [[nodiscard]] std::optional<Diagnostic> stranger() const override;
 
     /// Writes the motion program `lines` and runs it.
@@ -117,6 +117,8 @@ private:
         definitions ///< of the axes of all motors, after a run was refused
     };
 
+    enum class Link { silent, heard, lost }; ///< since it was opened
+
     struct Request {
         std::string line;
         Kind kind = Kind::step;
@@ -139,6 +141,62 @@ private:
         [[nodiscard]] bool searching() const { return (word_1 >> 10 & 1U) != 0; }
         [[nodiscard]] bool in_place() const { return !enabled() || (word_2 & 1U) != 0; }
         [[nodiscard]] bool standing() const { return !enabled() || (word_1 >> 13 & 1U) != 0; }
+    };
+
+    // What belongs to one of the things that a session does, each from its own begin on.
+
+    /// The order of questions and answers.
+    struct Exchange {
+        bool buffer_open = false; ///< nothing may be asked meanwhile
+        bool asked_poll = false;  ///< by the last line
+        bool look_first = false;  ///< before anything is sent again that moves: the card may have been reset
+    };
+    /// The watchdog in the card, which stops the motors when it does not hear us.
+    struct CardWatchdog {
+        bool armed = false;
+        bool mark_is_ours = false; ///< P1000 was set back since it was armed
+        bool stays_armed = false;  ///< at rest, too: something in the card may begin motion without a command
+    };
+    /// What may give motors their power, since the link was made.
+    struct PowerSources {
+        bool found = false;    ///< some motor has had power since before
+        bool given = false;    ///< to some motor, by a request
+        bool plcs_run = false; ///< other PLC programs than the guard may, as far as is known
+    };
+    /// The program that is loaded or runs, or the last one.
+    struct ProgramRun {
+        int lines = 0, executed = 0;
+        bool marks_tell = false; ///< lines are executed in their order
+        bool held = false;
+    };
+    struct Jogging {
+        std::optional<double> until; ///< dead-man's time, s
+        bool stopping = false;
+    };
+    struct Homing {
+        std::size_t axis = 0;
+        double from = 0.0;      ///< counts
+        bool backs_off = false; ///< to the side of its flag from which a motor finds it
+    };
+    struct Braking {
+        std::optional<double> by; ///< s; the motors lose their power then
+        bool due = false;         ///< which motors move is not known yet
+    };
+    /// The link is going to be dropped.
+    struct Leaving {
+        std::optional<double> kill_by{}; ///< once it was killed, s; then a kill counts as unseen
+        int quiet_reports = 0;           ///< in which no motor had power, behind the last kill
+    };
+    /// Lines that a person gave, until the last is answered; or the last ones.
+    struct Command {
+        std::deque<std::string> lines; ///< to be sent yet
+        std::string opened_by;         ///< the line of theirs that opened the buffer
+        std::string text;              ///< all lines
+        std::vector<double> from;      ///< counts of each motor when it was given
+        bool goes_on = false;          ///< behind a refused line
+        bool refused = false;          ///< a line of it, and it went on
+        bool closes_loops = false;
+        bool only_sets = false; ///< variables: nothing moves
     };
 
     // pmac_session.cpp: the conversation
@@ -203,7 +261,6 @@ private:
     [[nodiscard]] bool takes_power() const;
     void part(double now);
     void watch_parting();
-    void end_leaving();
     void switch_plcs_off();
 
     // pmac_requests.cpp: what a person wants
@@ -259,8 +316,7 @@ private:
     std::string output_;
     std::vector<drivers::ConsoleLine> told_;
     std::string message_;
-    bool link_lost_ = false;
-    bool heard_ = false;  ///< something since the link was opened
+    Link link_ = Link::silent;
     bool unseen_ = false; ///< silent since the last report: what it reported is old
 
     std::deque<Request> queue_;
@@ -269,10 +325,8 @@ private:
     double next_poll_ = 0.0, next_reading_ = 0.0, greet_at_ = 0.0, opened_at_ = 0.0;
     std::size_t greet_step_ = 0;
     std::string greeting_heard_{}; ///< before the first question
-    bool buffer_open_ = false;     ///< nothing may be asked meanwhile
+    Exchange exchange_;
     bool polled_ = false;
-    bool asked_poll_ = false; ///< by the last line
-    bool look_first_ = false; ///< before anything is sent again that moves: the card may have been reset
 
     MotorReadings readings_;
     std::vector<MotorState> motors_;
@@ -282,47 +336,28 @@ private:
     std::uint32_t system_1_ = 0, system_2_ = 0;
     double mark_ = 0.0; ///< P1000, which programs and the watchdog set
 
-    int program_lines_ = 0, executed_ = 0;
+    ProgramRun run_;
     std::string run_refusal_{}; ///< until the card has reported whose loop is open
-    bool marks_tell_ = false;   ///< lines are executed in their order
-    bool held_ = false;
-    bool armed_ = false;        ///< the watchdog in the card
-    bool mark_is_ours_ = false; ///< P1000 was set back since the watchdog was armed
-    bool stays_armed_ = false;  ///< at rest, too: something in the card may begin motion without a command
+    CardWatchdog watchdog_;
     int quiet_polls_ = 0;
     int off_target_polls_ = 0; ///< a motor stands where it was not sent
     int power_polls_ = 0;      ///< for which power that was given is still waited for
     bool unexplained_ = false; ///< a motor was killed, and the card has not reported yet by what
     bool was_home_ = false;    ///< to tell when the card forgets
-    std::size_t homing_axis_ = 0;
-    double homing_from_ = 0.0;           ///< counts
-    std::vector<double> commanded_from_; ///< counts of each motor when the last command was given
-    std::string commanded_;              ///< its lines
-    bool lines_may_power_ = false;       ///< those of commands
-    bool closes_loops_ = false;          ///< the last command
-    bool only_set_ = false;              ///< variables, by its lines: nothing moves
-    std::vector<double> watched_deg_;    ///< of each axis, at the last look at the limits
-    std::vector<double> rest_counts_;    ///< of each motor, where it came to rest
-    bool homing_backs_off_ = false;      ///< to the side of its flag from which a motor finds it
+    Homing homing_;
+    bool lines_may_power_ = false;                      ///< those of commands
+    std::vector<double> watched_deg_;                   ///< of each axis, at the last look at the limits
+    std::vector<double> rest_counts_;                   ///< of each motor, where it came to rest
     std::vector<std::optional<double>> own_jog_speeds_; ///< Ix22 as a person left it, where a jog changed it
-    std::optional<double> brake_by_;  ///< while stopping, s; the motors lose their power then
-    bool unbraked_ = false;           ///< stopping, and which motors move is not known yet
-    bool found_power_ = false;        ///< some motor has had power since before the link was made
-    bool gave_power_ = false;         ///< to some motor, by a request since then
-    bool leaving_ = false;            ///< the link is going to be dropped
-    int quiet_reports_ = 0;           ///< in which no motor had power, behind the last kill
-    bool plcs_run_ = false;           ///< other PLC programs than the guard may, as far as is known
-    std::optional<double> kill_by_{}; ///< s; then a kill counts as unseen
+    Braking braking_;                                   ///< while stopping
+    PowerSources power_;
+    std::optional<Leaving> leaving_;
     std::string farewell_{};
-    std::optional<double> jog_until_;
-    bool jog_stopping_ = false;
+    Jogging jogging_;
     drivers::Overrides overrides_;
 
     TypedBuffer typed_;
-    std::deque<std::string> command_lines_;
-    std::string opened_by_{}; ///< the line of theirs that opened the buffer
-    bool command_goes_on_ = false;
-    bool command_refused_ = false;   ///< a line of it, and it went on
+    Command command_;
     std::string addresses_ = "#1&1"; ///< those of the person's commands
     drivers::CommandAnswer answer_;
 };

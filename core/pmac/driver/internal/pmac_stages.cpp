@@ -32,8 +32,8 @@ void PmacSession::watch_stage() {
         watch_program(settled);
         break;
     case Stage::jogging:
-        if (settled && (!jog_until_ || jog_stopping_)) {
-            finish(jog_stopping_ ? Stage::stopped : Stage::ready);
+        if (settled && (!jogging_.until || jogging_.stopping)) {
+            finish(jogging_.stopping ? Stage::stopped : Stage::ready);
         }
         break;
     case Stage::homing:
@@ -42,7 +42,7 @@ void PmacSession::watch_stage() {
         }
         break;
     case Stage::stopping:
-        unbraked_ ? brake() : watch_stopping();
+        braking_.due ? brake() : watch_stopping();
         break;
     case Stage::moving_by_command:
         if (settled) {
@@ -53,7 +53,7 @@ void PmacSession::watch_stage() {
         break;
     case Stage::ready:
     case Stage::stopped:
-        if (settled && armed_ && !stays_armed_) {
+        if (settled && watchdog_.armed && !watchdog_.stays_armed) {
             rest();
         }
         break;
@@ -98,15 +98,14 @@ std::string PmacSession::limit_sentence() const {
 std::string PmacSession::commanded_limit() const {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const int motor = settings_.axes[n].motor;
-        const bool moved =
-            n < commanded_from_.size() && std::abs(motors_[n].counts - commanded_from_[n]) > 1.0;
+        const bool moved = n < command_.from.size() && std::abs(motors_[n].counts - command_.from[n]) > 1.0;
         if (!at_limit(n)) {
             continue;
         }
         if (moved) {
             return fmt::format("motor {} reached a limit of the card", motor);
         }
-        if (commanded_.find(fmt::format("#{}", motor)) != std::string::npos) {
+        if (command_.text.find(fmt::format("#{}", motor)) != std::string::npos) {
             return fmt::format("motor {} is at a limit of the card", motor);
         }
     }
@@ -124,9 +123,9 @@ std::string PmacSession::unheard() const {
 
 /// Nothing moves: the card need not watch, and no character that was garbled into ^R finds a program.
 void PmacSession::rest() {
-    if (!stays_armed_) {
+    if (!watchdog_.stays_armed) {
         ask(disarm_watchdog, Kind::watch);
-        armed_ = false;
+        watchdog_.armed = false;
     }
     ask(fmt::format("&{}B0", settings_.system), Kind::watch);
     give_jog_speeds_back();
@@ -135,18 +134,18 @@ void PmacSession::rest() {
 void PmacSession::watch_program(bool settled) {
     constexpr std::uint32_t errors = 3U << 21, held_bit = 1U << 23;
     constexpr int ahead = 4; // a program is calculated before its moves are made
-    if (marks_tell_) {
-        executed_ = std::clamp(static_cast<int>(std::min(mark_, 1e6)) - ahead, executed_, program_lines_);
+    if (run_.marks_tell) {
+        run_.executed = std::clamp(static_cast<int>(std::min(mark_, 1e6)) - ahead, run_.executed, run_.lines);
     }
     const bool all_sent = queue_.empty(); // else the report may be older than our resume
-    if ((system_2_ & held_bit) != 0 && !held_ && all_sent) {
-        held_ = true;
+    if ((system_2_ & held_bit) != 0 && !run_.held && all_sent) {
+        run_.held = true;
         message_ = "feed hold was triggered outside Millwright";
     }
     if ((system_2_ & errors) != 0) {
         fail("the card ended the program with a run-time error");
-    } else if (settled && mark_ > program_lines_ + 0.5) {
-        executed_ = program_lines_;
+    } else if (settled && mark_ > run_.lines + 0.5) {
+        run_.executed = run_.lines;
         finish(Stage::ready);
     } else if (settled) {
         const std::string limit = limit_sentence();
@@ -157,21 +156,21 @@ void PmacSession::watch_program(bool settled) {
 }
 
 void PmacSession::watch_homing() {
-    if (homing_backs_off_) {
-        homing_backs_off_ = false;
-        homing_from_ = motors_[homing_axis_].counts;
+    if (homing_.backs_off) {
+        homing_.backs_off = false;
+        homing_.from = motors_[homing_.axis].counts;
         quiet_polls_ = 0;
-        ask(fmt::format("#{}HM", settings_.axes[homing_axis_].motor));
+        ask(fmt::format("#{}HM", settings_.axes[homing_.axis].motor));
         return;
     }
-    const bool found = motors_[homing_axis_].home();
+    const bool found = motors_[homing_.axis].home();
     if (!found && quiet_polls_ <= patient_polls) {
         return; // it stands for a moment where it turns back to its flag
     }
     if (!found) {
-        fail(fmt::format("motor {} did not find its home flag", settings_.axes[homing_axis_].motor));
-    } else if (homing_axis_ + 1 < motors_.size()) {
-        home_axis(homing_axis_ + 1);
+        fail(fmt::format("motor {} did not find its home flag", settings_.axes[homing_.axis].motor));
+    } else if (homing_.axis + 1 < motors_.size()) {
+        home_axis(homing_.axis + 1);
     } else {
         finish(Stage::ready);
     }
@@ -186,11 +185,11 @@ void PmacSession::watch_stopping() {
         } else {
             kill();
         }
-    } else if (quiet_polls_ >= 2 && armed_ && !stays_armed_) {
+    } else if (quiet_polls_ >= 2 && watchdog_.armed && !watchdog_.stays_armed) {
         rest();
     } else if (quiet_polls_ >= 2 &&
                queue_.empty()) { // the link may be dropped then, and the guard is disarmed
-        if (armed_) {
+        if (watchdog_.armed) {
             rest();
         }
         finish(Stage::stopped, message_);
@@ -202,12 +201,12 @@ void PmacSession::finish(Stage stage, std::string why) {
     const bool given_up = stage_ == Stage::commanding || stage == Stage::alarm;
     stage_ = stage;
     message_ = std::move(why);
-    jog_until_.reset();
-    jog_stopping_ = held_ = false;
+    jogging_ = {};
+    run_.held = false;
     quiet_polls_ = off_target_polls_ = power_polls_ = 0;
-    unbraked_ = unexplained_ = false;
+    braking_ = {};
+    unexplained_ = false;
     following_.forget();
-    brake_by_.reset();
     for (MotorState& motor : motors_) {
         motor.had_power = motor.enabled();
         motor.was_given_power =
@@ -240,8 +239,8 @@ void PmacSession::forget_all() {
     sent_.reset();
     output_ = "\x18";
     queue_.clear();
-    command_lines_.clear();
-    buffer_open_ = look_first_ = false;
+    command_.lines.clear();
+    exchange_.buffer_open = exchange_.look_first = false;
 }
 
 /// The one command that nothing refuses; three times, since a character may be lost.

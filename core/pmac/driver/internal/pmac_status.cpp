@@ -16,7 +16,7 @@ drivers::DriverState PmacSession::state() const {
     case Stage::ready:
         return drivers::DriverState::idle;
     case Stage::running:
-        return held_ ? drivers::DriverState::holding : drivers::DriverState::running;
+        return run_.held ? drivers::DriverState::holding : drivers::DriverState::running;
     case Stage::loading:
     case Stage::commanding:
     case Stage::moving_by_command:
@@ -58,7 +58,7 @@ std::optional<Diagnostic> PmacSession::stranger() const {
     return Diagnostic{
         {},
         message_,
-        link_lost_
+        link_lost()
             ? ""
             : "check that the card is on and that the baud rate of the serial port matches the card's"};
 }
@@ -66,17 +66,17 @@ std::optional<Diagnostic> PmacSession::stranger() const {
 /// Of the program, into the card's buffer; each of them may have its mark with it.
 int PmacSession::sent_lines() const {
     if (stage_ != Stage::loading) {
-        return program_lines_;
+        return run_.lines;
     }
     constexpr int around = 6; // lines that end the buffer and run it
     const int waiting = static_cast<int>(std::ssize(queue_)) - around;
-    return std::clamp(program_lines_ - waiting / (marks_tell_ ? 2 : 1), 0, std::max(0, program_lines_ - 1));
+    return std::clamp(run_.lines - waiting / (run_.marks_tell ? 2 : 1), 0, std::max(0, run_.lines - 1));
 }
 
 drivers::DriverStatus PmacSession::status() const {
     drivers::DriverStatus status;
     status.message = message_;
-    status.link_lost = link_lost_;
+    status.link_lost = link_lost();
     status.state = state();
     if (status.state == drivers::DriverState::disconnected) {
         return status;
@@ -100,9 +100,9 @@ drivers::DriverStatus PmacSession::status() const {
     }
     status.overrides = overrides_;
     status.answer = answer_;
-    status.executed_blocks = executed_;
+    status.executed_blocks = run_.executed;
     status.sent_blocks = sent_lines();
-    status.block = program_lines_ > 0 ? std::min(executed_, program_lines_ - 1) : -1;
+    status.block = run_.lines > 0 ? std::min(run_.executed, run_.lines - 1) : -1;
     return status;
 }
 

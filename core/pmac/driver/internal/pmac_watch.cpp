@@ -74,14 +74,14 @@ void PmacSession::read_poll(const std::vector<std::string>& lines, double now) {
     system_1_ = system->first;
     system_2_ = system->second;
     mark_ = *mark;
-    guard_.see(*guard, armed_);
+    guard_.see(*guard, watchdog_.armed);
     if (stage_ == Stage::alarm && !guard_.runs() && guard_.is_disarmed() && !any_power()) {
-        armed_ = false; // it has taken the power while we were not heard, which disarms it
+        watchdog_.armed = false; // it has taken the power while we were not heard, which disarms it
     }
     polled_ = true;
     unseen_ = false;
     polled_at_ = now;
-    found_power_ = found_power_ && any_power();
+    power_.found = power_.found && any_power();
     watch(now);
 }
 
@@ -99,7 +99,7 @@ void PmacSession::watch(double now) {
     if (stage_ == Stage::greeting) {
         finish(Stage::ready);
         was_home_ = position_known();
-        found_power_ = any_power();
+        power_.found = any_power();
         return;
     }
     if (stage_ == Stage::parting) {
@@ -153,7 +153,7 @@ void PmacSession::watch_motors() {
 /// What the guard in the card ended of a typed line, or of power that was there: else it would be gone
 /// without a word. Jogs, homing and programs tell it by themselves.
 void PmacSession::watch_own_stop() {
-    if (!armed_ || !mark_is_ours_ || unheard().empty()) {
+    if (!watchdog_.armed || !watchdog_.mark_is_ours || unheard().empty()) {
         return;
     }
     const bool commands = stage_ == Stage::moving_by_command || stage_ == Stage::commanding;
@@ -162,7 +162,7 @@ void PmacSession::watch_own_stop() {
     });
     if ((commands || rests()) && lost_power) {
         fail("the card disabled its motors: " + unheard());
-    } else if (stage_ == Stage::moving_by_command && !only_set_ && any_power()) {
+    } else if (stage_ == Stage::moving_by_command && !command_.only_sets && any_power()) {
         const std::string why = unheard();
         halt();
         message_ = "the card stopped its motors: " + why;
@@ -173,7 +173,7 @@ void PmacSession::watch_own_stop() {
 std::string PmacSession::reason_of_kill(bool now) const {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const MotorState& motor = motors_[n];
-        if (now && !motor.had_power && !closes_loops_) {
+        if (now && !motor.had_power && !command_.closes_loops) {
             continue;
         }
         if (motor.faulty() && !motor.enabled()) {
@@ -281,7 +281,8 @@ void PmacSession::watch_zone() {
 /// With a wrong gain or offset a motor goes where it was not sent, and brakes do not hold it.
 void PmacSession::watch_rest() {
     constexpr double slack_deg = 2.0;
-    const bool only_set = only_set_ && (stage_ == Stage::commanding || stage_ == Stage::moving_by_command);
+    const bool only_set =
+        command_.only_sets && (stage_ == Stage::commanding || stage_ == Stage::moving_by_command);
     if (!rests() && !only_set) {
         rest_counts_.clear();
         return;
@@ -315,9 +316,9 @@ std::vector<double> PmacSession::axes_deg() const {
 /// A flag that is not connected, or whose settings are wrong, must not let a motor run for ever.
 void PmacSession::watch_way_home() {
     constexpr double slack_deg = 20.0, turn_deg = 360.0;
-    const PmacAxis& axis = settings_.axes[homing_axis_];
+    const PmacAxis& axis = settings_.axes[homing_.axis];
     const double range = axis.max_deg && axis.min_deg ? *axis.max_deg - *axis.min_deg : turn_deg;
-    const double way = std::abs(motors_[homing_axis_].counts - homing_from_) / axis.counts_per_degree;
+    const double way = std::abs(motors_[homing_.axis].counts - homing_.from) / axis.counts_per_degree;
     if (way > range + slack_deg) {
         halt();
         message_ =

@@ -72,7 +72,7 @@ void Motor::close_loop() {
         open_output_.reset();
         command_ = actual_;
         command_velocity_ = integral_ = 0.0;
-        fatal_ = amplifier_fault_ = false;
+        faults_.fatal = faults_.amplifier = false;
     }
 }
 
@@ -94,8 +94,8 @@ void Motor::jog_to(double position, const MotorSettings& settings) {
 void Motor::jog_to_trigger(double position, double past, const MotorSettings& settings) {
     jog_to(position, settings);
     task_ = MotorTask::until_trigger;
-    past_trigger_ = past;
-    no_trigger_ = true;
+    trigger_.past = past;
+    trigger_.missing = true;
 }
 
 void Motor::home(const MotorSettings& settings) {
@@ -104,7 +104,7 @@ void Motor::home(const MotorSettings& settings) {
     JogRules rules = settings.jog;
     rules.speed = std::abs(settings.home_speed);
     begin(MotorTask::home_search, to_speed(command_velocity_, settings.home_speed, rules));
-    no_trigger_ = true;
+    trigger_.missing = true;
 }
 
 void Motor::shift(double way) {
@@ -207,9 +207,9 @@ void Motor::watch_trigger(const MotorSettings& settings, const Channel& channel)
         return;
     }
     const double captured = *channel.home_edge() - origin_;
-    no_trigger_ = false;
+    trigger_.missing = false;
     if (task_ == MotorTask::until_trigger) {
-        begin(MotorTask::jog, by_way(command_velocity_, captured + past_trigger_ - command_, settings.jog));
+        begin(MotorTask::jog, by_way(command_velocity_, captured + trigger_.past - command_, settings.jog));
         return;
     }
     shift(captured + settings.home_offset);
@@ -227,14 +227,15 @@ void Motor::watch_limits(const MotorSettings& settings, const Channel& channel) 
     const auto beyond = [&](double limit, double sign) {
         return soft && limit * limit > 0.0 && sign * (actual_ - limit) >= 0.0;
     };
-    at_high_ = (switches && channel.minus_limit_open()) || beyond(settings.soft_high, 1.0);
-    at_low_ = (switches && channel.plus_limit_open()) || beyond(settings.soft_low, -1.0);
-    const bool into = (at_high_ && command_velocity_ > 0.0) || (at_low_ && command_velocity_ < 0.0);
+    limits_.at_high = (switches && channel.minus_limit_open()) || beyond(settings.soft_high, 1.0);
+    limits_.at_low = (switches && channel.plus_limit_open()) || beyond(settings.soft_low, -1.0);
+    const bool into =
+        (limits_.at_high && command_velocity_ > 0.0) || (limits_.at_low && command_velocity_ < 0.0);
     if (!into) {
-        stopped_at_limit_ = stopped_at_limit_ && (at_high_ || at_low_);
+        limits_.stopped = limits_.stopped && (limits_.at_high || limits_.at_low);
         return;
     }
-    stopped_at_limit_ = true;
+    limits_.stopped = true;
     if (task_ != MotorTask::limit_stop && task_ != MotorTask::abort) {
         begin(MotorTask::limit_stop, braking(command_velocity_, settings.abort_rate));
         event_ = Event::limit;
@@ -268,14 +269,14 @@ void Motor::watch_errors(const MotorSettings& settings, const Channel& channel) 
         return;
     }
     const double error = std::abs(command_ - actual_);
-    warning_ = settings.warning_error > 0.0 && error > settings.warning_error;
+    faults_.warning = settings.warning_error > 0.0 && error > settings.warning_error;
     if (settings.wired && (settings.flags & fault_off) == 0 && channel.fault) {
         kill();
-        amplifier_fault_ = true;
+        faults_.amplifier = true;
         event_ = Event::amplifier_fault;
     } else if (settings.fatal_error > 0.0 && error > settings.fatal_error) {
         kill();
-        fatal_ = true;
+        faults_.fatal = true;
         event_ = Event::fatal_error;
     }
 }
@@ -290,7 +291,7 @@ void Motor::watch_position(const MotorSettings& settings) {
 std::uint32_t Motor::status_word_1(const MotorSettings& settings) const {
     const auto bit = [](bool on, int place) { return on ? std::uint32_t{1} << place : 0U; };
     const bool standing = closed_ && !(std::abs(command_velocity_) > 0.0) && !busy();
-    return bit(settings.active, 23) | bit(at_low_, 22) | bit(at_high_, 21) |
+    return bit(settings.active, 23) | bit(limits_.at_low, 22) | bit(limits_.at_high, 21) |
            bit(settings.active && !closed_, 18) | bit(busy() && task_ != MotorTask::abort, 17) |
            bit(settings.integrate_at_rest, 16) | bit(standing, 13) | bit(task_ == MotorTask::abort, 12) |
            bit(task_ == MotorTask::home_search || task_ == MotorTask::until_trigger, 10);
@@ -298,8 +299,9 @@ std::uint32_t Motor::status_word_1(const MotorSettings& settings) const {
 
 std::uint32_t Motor::status_word_2() const {
     const auto bit = [](bool on, int place) { return on ? std::uint32_t{1} << place : 0U; };
-    return bit(enabled(), 14) | bit(stopped_at_limit_, 11) | bit(home_complete_, 10) | bit(no_trigger_, 7) |
-           bit(amplifier_fault_, 3) | bit(fatal_, 2) | bit(warning_, 1) | bit(in_position_, 0);
+    return bit(enabled(), 14) | bit(limits_.stopped, 11) | bit(home_complete_, 10) |
+           bit(trigger_.missing, 7) | bit(faults_.amplifier, 3) | bit(faults_.fatal, 2) |
+           bit(faults_.warning, 1) | bit(in_position_, 0);
 }
 
 } // namespace millwright::pmac::card

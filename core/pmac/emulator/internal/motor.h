@@ -101,12 +101,12 @@ public:
     [[nodiscard]] double command_velocity() const { return command_velocity_; } ///< counts/s
     [[nodiscard]] double following_error() const { return closed_ ? command_ - actual_ : 0.0; }
     [[nodiscard]] double output() const { return output_; }
-    [[nodiscard]] bool at_both_limits() const { return at_high_ && at_low_; }
+    [[nodiscard]] bool at_both_limits() const { return limits_.at_high && limits_.at_low; }
     [[nodiscard]] bool home_complete() const { return home_complete_; }
     [[nodiscard]] bool in_position() const { return in_position_; }
-    [[nodiscard]] bool warning() const { return warning_; }
-    [[nodiscard]] bool fatal() const { return fatal_; }
-    [[nodiscard]] bool amplifier_fault() const { return amplifier_fault_; }
+    [[nodiscard]] bool warning() const { return faults_.warning; }
+    [[nodiscard]] bool fatal() const { return faults_.fatal; }
+    [[nodiscard]] bool amplifier_fault() const { return faults_.amplifier; }
     double before_jog = 0.0; ///< where J= goes
     [[nodiscard]] std::uint32_t status_word_1(const MotorSettings& settings) const;
     /// Without what concerns the coordinate system.
@@ -122,6 +122,20 @@ private:
     void watch_position(const MotorSettings& settings);
     void shift(double way);
 
+    struct LimitState {
+        bool at_high = false, at_low = false;
+        bool stopped = false; ///< by one of them
+    };
+    struct Faults {
+        bool warning = false, fatal = false; ///< by the following error
+        bool amplifier = false;
+    };
+    /// Of a search: its trigger stops the motion.
+    struct Trigger {
+        double past = 0.0;    ///< counts from it to the end
+        bool missing = false; ///< the last search has not found it
+    };
+
     Profile profile_;
     MotorTask task_ = MotorTask::none;
     bool closed_ = false;
@@ -130,12 +144,13 @@ private:
     double command_ = 0.0, command_velocity_ = 0.0, last_command_velocity_ = 0.0;
     double actual_ = 0.0, velocity_ = 0.0;
     double integral_ = 0.0, output_ = 0.0;
-    double past_trigger_ = 0.0;
     bool saturated_ = false;
-    bool at_high_ = false, at_low_ = false, stopped_at_limit_ = false;
-    bool home_complete_ = false, warning_ = false, fatal_ = false, amplifier_fault_ = false;
-    bool no_trigger_ = false, followed_ = false;
+    bool home_complete_ = false;
+    bool followed_ = false; ///< a program has it
     bool in_position_ = false;
+    LimitState limits_;
+    Faults faults_;
+    Trigger trigger_;
     int quiet_scans_ = 0;
     Event event_ = Event::none;
 };
