@@ -3,6 +3,7 @@
 #include "core/base/counted.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/chosen_weight.h"
 #include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "ui/panels/internal/fields.h"
@@ -203,9 +204,9 @@ void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQu
     ask.edit(
         tool.erases ? "Erase the weight" : "Paint the weight",
         [painted, brush](Project& p) {
-            plan::paint_weight(
+            project::paint_weight(
                 p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
-            plan::let_paint_count(p.grid.elliptic);
+            project::let_paint_count(p.grid.elliptic);
         },
         "paint the weight");
 }

@@ -1,41 +1,23 @@
-#include "core/plan/grid_method.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
-#include "core/plan/internal/grid_method_rows.h"
 
 #include <fmt/format.h>
 
-#include <array>
+namespace millwright::project {
 
-namespace millwright::plan {
+constinit const GridMethodRow uniform_row{
+    .id = "uniform",
+    .label = "Uniform",
+    .tip = "Equal parameter steps, no adaptation",
+    .report_key = "uniform",
+    .short_name = "Uniform",
+    .caption = "uniform",
+    .title = "Measuring the uniform grid",
+    .share = 0.1,
+    .same_settings = [](const GridInput&, const GridInput&) { return true; }};
 
-namespace {
-
-GridMethodRow uniform_row() {
-    return {.method = project::GridMethod::uniform,
-            .report_key = "uniform",
-            .short_name = "Uniform",
-            .title = "Measuring the uniform grid",
-            .share = 0.1,
-            .same_settings = [](const project::GridInput&, const project::GridInput&) { return true; }};
-}
-
-} // namespace
-
-std::span<const GridMethodRow> grid_method_rows() {
-    static const std::array rows{
-        uniform_row(), redistribution_row, elliptic_row, harmonic_row, tracks_row, chain_row};
-    static_assert(rows.size() == project::every_grid_method.size());
-    return rows;
-}
-
-const GridMethodRow& row_of(project::GridMethod method) {
-    return grid_method_rows()[static_cast<std::size_t>(method)];
-}
-
-/// Throws Error for tracks that bend, which only the elliptic grid and the
-/// harmonic map can start from.
 void expect_straight_tracks(grid::TrackDirection direction, const grid::Grid& start) {
     const Eigen::Index across = direction == grid::TrackDirection::along_v ? 0 : 1;
     for (int t = 0; t < start.track_count(direction); ++t) {
@@ -50,8 +32,4 @@ void expect_straight_tracks(grid::TrackDirection direction, const grid::Grid& st
     }
 }
 
-std::string_view title_of_making(project::GridMethod method) {
-    return row_of(method).title;
-}
-
-} // namespace millwright::plan
+} // namespace millwright::project
