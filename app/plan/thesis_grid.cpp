@@ -11,6 +11,7 @@
 #include "core/grid/weight.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 
 #include <CLI/Config.hpp>
@@ -164,7 +165,7 @@ void expect_files_of(const GridOptions& options, GridMethod method) {
 grid::OptimiserState adapted(grid::GridOptimiser& optimiser, GridMethod method, const std::stop_token& stop) {
     ProgressPrinter printer;
     const Progress progress([&](const Progress::Report& report) { printer.show(report); }, stop);
-    progress.report(0.0, std::string(plan::title_of_making(method)));
+    progress.report(0.0, std::string(row_of(method).title));
     return grid::run(optimiser, progress);
 }
 

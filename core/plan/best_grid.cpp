@@ -2,7 +2,7 @@
 // part, where the nearest point of the surface counts, another method may have found more.
 #include "core/plan/internal/best_grid.h"
 
-#include "core/project/setting_tables.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ Evaluation best_grid(const GridMaking& by, const Evaluation& uniform, const Prog
         best = *std::move(found);
         best.outcome.note = fmt::format(
             "On the finished part no stage of the chain is better than \"{}\", so its grid is used.",
-            project::row_of(project::grid_methods(), other).label);
+            row_of(other).label);
         kept = true;
     }
     return best;

@@ -10,6 +10,7 @@
 #include "core/plan/internal/worse_metrics.h"
 #include "core/plan/largest_error.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
@@ -153,7 +154,7 @@ std::string sequencing_remark(const project::Project& project, const Plan& plan)
                              "uniform grid with {}: {}. Grids are computed without the points and branches "
                              "that the sequencing chooses; if these figures matter, use the uniform grid",
                              path->toolpath.points.size(),
-                             project::row_of(project::grid_methods(), program_grid(project)).label,
+                             row_of(program_grid(project)).label,
                              uniform->toolpath.points.size(),
                              figures);
 }

@@ -3,6 +3,7 @@
 #include "core/plan/cut_remarks.h"
 #include "core/plan/cut_study.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/json_text.h"
 #include "core/project/setting_tables.h"
 #include "core/project/tool_settings.h"
@@ -63,7 +64,7 @@ std::string cut_report_text(const project::Project& project, const Plan& plan) {
     json["tool"] = project::tool_text(project.tool);
     json["tool_length"] = project::tool_length_text(project.tool, plan.cutting_setup->machine);
     json["strategy"] = project::row_of(project::strategies(), project.toolpath.strategy).id;
-    json["grid"] = project::row_of(project::grid_methods(), program_grid(project)).id;
+    json["grid"] = row_of(program_grid(project)).id;
     json["error_mm"]["max"] = project::rounded(evaluation.closest.max);
     json["error_mm"]["mean"] = project::rounded(evaluation.closest.mean);
     json["error_mm"]["p95"] = project::rounded(evaluation.closest.p95);

@@ -1,8 +1,8 @@
 #include "core/plan/internal/grid_stages.h"
 
-#include "core/plan/grid_method.h"
 #include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +17,7 @@ using project::GridMethod;
 /// once and is made anew afterwards.
 bool carry_over(GridMethod method, const StageWork& work) {
     const project::GridInput& input = work.project().grid;
-    const auto& old = work.earlier[static_cast<std::size_t>(method)];
+    const auto& old = work.earlier[index_of(method)];
     const bool fits = old && old->outcome.grid.nu() == input.nu && old->outcome.grid.nv() == input.nv &&
                       old->toolpath.direction == input.direction;
     if (!fits) {
@@ -83,7 +83,7 @@ std::shared_ptr<const Evaluation> shared(Evaluation found, Quality quality) {
 Stage grid_stage(GridMethod method, const project::Project& project, const Scope& scope) {
     const bool of_program = method == program_grid(project);
     const bool is_uniform = method == GridMethod::uniform;
-    const bool compared = std::ranges::count(project::compared_methods, method) > 0;
+    const bool compared = row_of(method).compared;
     Stage stage{.key = grid_key(method), .title = row_of(method).title, .share = row_of(method).share};
     stage.asked = of_program || is_uniform ||
                   (scope.comparisons && compared && !is_comparison_skipped(project, method));

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/plan/grid_method.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ double megabytes(std::size_t bytes) {
 } // namespace
 
 std::string memory_sentence(project::GridMethod method, const project::GridInput& input) {
-    const GridMethodRow& row = row_of(method);
+    const project::GridMethodRow& row = row_of(method);
     return row.memory == nullptr ? std::string()
                                  : fmt::format("The {} of {} x {} nodes needs up to {:.0f} MB",
                                                row.grid_name,

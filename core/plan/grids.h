@@ -2,20 +2,18 @@
 #pragma once
 
 #include "core/base/error.h"
-#include "core/grid/weight.h"
 #include "core/plan/evaluation.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/project.h"
 
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace millwright::plan {
 
-/// While a person drags, or for what is kept.
-enum class Effort { live, full };
+using project::Effort;
 
 /// When a move is looked at: while dragging, and for figures that are reported.
 inline constexpr toolpath::MoveSampling live_sampling{8};
@@ -24,36 +22,10 @@ inline constexpr toolpath::MoveSampling report_sampling = toolpath::until_known;
     return effort == Effort::live ? live_sampling : report_sampling;
 }
 
-/// The weight of the elliptic functional that was chosen on `patch`, where the error density of the uniform
-/// grid (or of a later one) is `error`; null, if nothing is known of it, for a choice that needs it. Throws
-/// Error if an expression has no sense.
-[[nodiscard]] grid::WeightPtr chosen_weight(const project::GridInput& input,
-                                            const geometry::ParametricSurface& patch,
-                                            const grid::WeightPtr& error);
-
-/// How much of the weight counts where, in solver coordinates; null where all of it counts everywhere.
-[[nodiscard]] grid::WeightPtr region_weight(const project::GridInput& input,
-                                            const geometry::ParametricSurface& patch);
-
 /// Whether the weight, what is painted of it, and the region count for the grid of `method`.
-[[nodiscard]] constexpr bool uses_weight(project::GridMethod method) {
-    return method == project::GridMethod::elliptic || method == project::GridMethod::harmonic;
+[[nodiscard]] inline bool uses_weight(project::GridMethod method) {
+    return row_of(method).uses_weight;
 }
-
-/// Whether the chosen weight comes from the measured error, if only in part.
-[[nodiscard]] bool needs_error(const project::EllipticInput& input);
-
-/// Paints on the weight from `from` to `to` on `patch` (a dab where both are one), on a fresh table if
-/// nothing was painted so far. True if something has changed. What is painted counts where the weight is
-/// mixed and its share is not 0.
-bool paint_weight(project::EllipticInput& input,
-                  const geometry::ParametricSurface& patch,
-                  const Vec2& from,
-                  const Vec2& to,
-                  const grid::Brush& brush);
-
-/// Makes what is painted count: mixes the weight, with what it was made of so far, where it is not mixed.
-void let_paint_count(project::EllipticInput& input);
 
 /// What making the grid by `method` takes at most, as a sentence with a figure in MB; empty if unknown.
 [[nodiscard]] std::string memory_sentence(project::GridMethod method, const project::GridInput& input);
@@ -82,9 +54,6 @@ make_optimiser(project::GridMethod method,
 
 /// Runs an optimiser to its end.
 [[nodiscard]] GridOutcome improved_outcome(grid::GridOptimiser& optimiser, const Progress& progress);
-
-/// What is being done when a grid is made, for people.
-[[nodiscard]] std::string_view title_of_making(project::GridMethod method);
 
 /// What a grid is made for, and by what.
 struct GridMaking {

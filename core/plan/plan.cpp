@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <set>
 
 namespace millwright::plan {
 
@@ -44,13 +43,11 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
     if (nodes < many_nodes) {
         return sentences;
     }
-    std::set<GridMethod> methods{program_grid(project)};
-    if (scope.comparisons) {
-        methods.insert(project::compared_methods.begin(), project::compared_methods.end());
-    }
-    for (const GridMethod method : methods) {
-        const std::string sentence =
-            is_comparison_skipped(project, method) ? std::string() : memory_sentence(method, project.grid);
+    for (const GridMethod method : project::every_grid_method) {
+        const bool made = method == program_grid(project) || (scope.comparisons && row_of(method).compared);
+        const std::string sentence = !made || is_comparison_skipped(project, method)
+                                         ? std::string()
+                                         : memory_sentence(method, project.grid);
         if (!sentence.empty()) {
             sentences.push_back(with_full_stop(sentence));
         }

@@ -53,12 +53,8 @@ struct Plan {
     std::optional<double> unsequenced_time;
     std::optional<Diagnostic> unsequenced_failure; ///< why it is missing; the program is there all the same
 
-    [[nodiscard]] const GridResult& grid(project::GridMethod method) const {
-        return grids[static_cast<std::size_t>(method)];
-    }
-    [[nodiscard]] GridResult& grid(project::GridMethod method) {
-        return grids[static_cast<std::size_t>(method)];
-    }
+    [[nodiscard]] const GridResult& grid(project::GridMethod method) const { return grids[index_of(method)]; }
+    [[nodiscard]] GridResult& grid(project::GridMethod method) { return grids[index_of(method)]; }
     /// What the program of `project` follows; null if not there.
     [[nodiscard]] const std::shared_ptr<const Evaluation>&
     program_path(const project::Project& project) const;
@@ -71,7 +67,7 @@ struct Plan {
 
 /// What of a plan is wanted beside the program and what it needs.
 struct Scope {
-    bool comparisons = false;   ///< the grids of compared_methods
+    bool comparisons = false;   ///< the grids of the methods that are compared
     bool times = false;         ///< of the grids that are there
     bool weight = false;        ///< of the elliptic functional
     bool cut = false;           ///< what the cutter does on the program's path

@@ -8,7 +8,7 @@
 #include "core/plan/planned_time.h"
 #include "core/plan/strategy_path.h"
 #include "core/posts/release.h"
-#include "core/project/setting_tables.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/tool_settings.h"
 #include "core/project/version.h"
 
@@ -29,8 +29,7 @@ std::vector<program::HeaderLine>
 header_of(const project::Project& project, const Plan& plan, const Evaluation& chosen) {
     const grid::Grid& grid = chosen.outcome.grid;
     const bool uniform = keeps_grid(chosen, *plan.grid(GridMethod::uniform).evaluation); // whatever was tried
-    const std::string_view method =
-        project::row_of(project::grid_methods(), uniform ? GridMethod::uniform : program_grid(project)).label;
+    const std::string_view method = row_of(uniform ? GridMethod::uniform : program_grid(project)).label;
     const bool has_nodes = follows_nodes(project.toolpath.strategy);
     std::vector<program::HeaderLine> lines{
         {"made by", fmt::format("Millwright {}", project::version())},

@@ -13,17 +13,24 @@ namespace fs = std::filesystem;
 class PlotWorker::Worker {
 public:
     Worker(fs::path assets, std::function<void()> wake)
-        : assets_(std::move(assets)), wake_(std::move(wake)), background_(wake_) {}
+        : wake_(std::move(wake)), derivation_(std::move(assets)), background_(wake_) {}
     Worker(const Worker&) = delete;
     Worker& operator=(const Worker&) = delete;
     ~Worker() = default;
 
-    void request(PlotResult start) {
-        background_.replace(
-            [this, start = std::move(start)](const Progress& progress) mutable { derive(start, progress); });
+    void request(PlotResult start, bool anew) {
+        background_.replace([this, anew, start = std::move(start)](const Progress& progress) {
+            if (anew) {
+                derivation_.forget();
+            }
+            derivation_.run(
+                start, [&](const PlotResult& now) { publish(now, progress); }, progress);
+        });
     }
     void request_program() {
-        background_.append([this](const Progress& progress) { derive_program(progress); });
+        background_.append([this](const Progress& progress) {
+            derivation_.run_program([&](const PlotResult& now) { publish(now, progress); }, progress);
+        });
     }
     void cancel() {
         background_.end_with([this](const Progress& progress) { end_reading(progress); });
@@ -37,19 +44,6 @@ private:
     void publish(const PlotResult& now, const Progress& progress) {
         published_.publish(now, progress);
         wake_();
-    }
-
-    void derive(PlotResult& now, const Progress& progress) {
-        PlotDerivation(now, assets_, progress).run([&] { publish(now, progress); });
-    }
-
-    void derive_program(const Progress& progress) {
-        const auto before = latest();
-        if (!before || !before->finished || before->failure || before->program) {
-            return;
-        }
-        PlotResult now = *before;
-        PlotDerivation(now, assets_, progress).run_program([&] { publish(now, progress); });
     }
 
     /// A program whose motion was given up says so.
@@ -66,10 +60,10 @@ private:
         publish(now, progress);
     }
 
-    fs::path assets_;
     std::function<void()> wake_;
     Published<PlotResult> published_;
-    Background background_; // last: its thread ends before the rest goes
+    PlotDerivation derivation_; // for the thread alone
+    Background background_;     // last: its thread ends before the rest goes
 };
 
 PlotWorker::PlotWorker(fs::path assets, std::function<void()> wake)
@@ -78,6 +72,14 @@ PlotWorker::PlotWorker(fs::path assets, std::function<void()> wake)
 PlotWorker::~PlotWorker() = default;
 
 std::uint64_t PlotWorker::request(const project::PlotInput& input) {
+    return ask(input, false);
+}
+
+std::uint64_t PlotWorker::request_anew(const project::PlotInput& input) {
+    return ask(input, true);
+}
+
+std::uint64_t PlotWorker::ask(const project::PlotInput& input, bool anew) {
     PlotResult start;
     start.request = ++requests_;
     start.input = input;
@@ -85,7 +87,7 @@ std::uint64_t PlotWorker::request(const project::PlotInput& input) {
         start.program = before->program; // can be played until the new one is there
         start.opened = before->opened && before->opened->finished ? before->opened : nullptr;
     }
-    worker_->request(std::move(start));
+    worker_->request(std::move(start), anew);
     return requests_;
 }
 

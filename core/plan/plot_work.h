@@ -107,9 +107,11 @@ public:
     PlotWorker& operator=(const PlotWorker&) = delete;
     ~PlotWorker();
 
-    /// Derives everything anew; what is shown stays until something new is there. The number of the request,
-    /// from 1.
+    /// Derives what does not hold any more: since its input has changed, or a file that it names. What is
+    /// shown stays until something new is there. The number of the request, from 1.
     std::uint64_t request(const project::PlotInput& input);
+    /// The same, but everything anew.
+    std::uint64_t request_anew(const project::PlotInput& input);
     /// Of a path that is too long to get one automatically; published as the rest.
     void request_program();
     void cancel();
@@ -121,6 +123,8 @@ public:
 
 private:
     class Worker;
+    std::uint64_t ask(const project::PlotInput& input, bool anew);
+
     std::unique_ptr<Worker> worker_;
     std::uint64_t requests_ = 0;
 };

@@ -4,10 +4,10 @@
 #include "core/base/units.h"
 #include "core/plan/cut_remarks.h"
 #include "core/plan/cut_study.h"
-#include "core/plan/grid_method.h"
 #include "core/plan/largest_error.h"
 #include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/json_text.h"
 #include "core/project/setting_tables.h"
 #include "core/project/tool_json.h"
@@ -222,7 +222,7 @@ Json grid_json(const project::Project& project, const Evaluation& chosen) {
     json["nu"] = outcome.grid.nu();
     json["nv"] = outcome.grid.nv();
     json["direction"] = project::row_of(project::track_directions(), project.grid.direction).id;
-    json["method"] = project::row_of(project::grid_methods(), program_grid(project)).id;
+    json["method"] = row_of(program_grid(project)).id;
     json["strategy"] = project::row_of(project::strategies(), project.toolpath.strategy).id;
     json["status"] = status_id(outcome.status);
     json["rounds"] = outcome.rounds;
@@ -263,8 +263,8 @@ Json program_json(const Plan& plan) {
 } // namespace
 
 std::string report_text(const project::Project& project, const Plan& plan) {
-    const bool compared = std::ranges::all_of(project::compared_methods, [&](GridMethod method) {
-        return plan.grid(method).evaluation || plan.grid(method).failure ||
+    const bool compared = std::ranges::all_of(project::every_grid_method, [&](GridMethod method) {
+        return !row_of(method).compared || plan.grid(method).evaluation || plan.grid(method).failure ||
                is_comparison_skipped(project, method);
     });
     expects(plan.grid(GridMethod::uniform).evaluation && compared && plan.program && plan.listing &&

@@ -1,12 +1,11 @@
 #include "core/plan/skipped_comparisons.h"
 
 #include "core/plan/strategy_path.h"
-#include "core/project/setting_tables.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -14,15 +13,15 @@
 namespace millwright::plan {
 
 bool is_comparison_skipped(const project::Project& project, project::GridMethod method) {
-    return std::ranges::count(project::compared_methods, method) > 0 && method != program_grid(project) &&
+    return row_of(method).compared && method != program_grid(project) &&
            std::int64_t{project.grid.nu} * project.grid.nv > most_compared_nodes;
 }
 
 std::string skipped_comparisons_sentence(const project::Project& project) {
     std::vector<std::string_view> names;
-    for (const project::GridMethod method : project::compared_methods) {
+    for (const project::GridMethod method : project::every_grid_method) {
         if (is_comparison_skipped(project, method)) {
-            names.push_back(project::row_of(project::grid_methods(), method).label);
+            names.push_back(row_of(method).label);
         }
     }
     return names.empty()

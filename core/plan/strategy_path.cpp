@@ -5,6 +5,7 @@
 #include "core/base/units.h"
 #include "core/plan/grids.h"
 #include "core/plan/internal/failure.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
@@ -76,14 +77,14 @@ std::string
 kept_note(const project::Project& project, const Evaluation& over, const Evaluation& even, bool turns) {
     return fmt::format("The spiral crosses the tracks that the grid \"{}\" was made for and would be worse "
                        "over it ({}) than over the uniform grid ({}), so the uniform grid is kept.",
-                       project::row_of(project::grid_methods(), project.grid.method).label,
+                       row_of(project.grid.method).label,
                        figures_text(over, turns),
                        figures_text(even, turns));
 }
 
 std::string not_made_note(const project::Project& project, const Diagnostic& reason) {
     return fmt::format("The spiral cannot be generated over the grid \"{}\" ({}); the uniform grid is kept.",
-                       project::row_of(project::grid_methods(), project.grid.method).label,
+                       row_of(project.grid.method).label,
                        reason.message);
 }
 

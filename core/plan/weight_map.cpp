@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "core/grid/elliptic_adaptation.h"
 #include "core/plan/grids.h"
+#include "core/project/grid_methods/chosen_weight.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,9 @@
 // What the numbers and choices of the grids say of themselves.
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 
 #include <array>
+#include <vector>
 
 namespace millwright::project {
 
@@ -240,26 +242,14 @@ constexpr std::array<Choice<TrackDirection>, 2> of_direction{{
      "Tracks follow the lines of constant u, as in the thesis's listing"},
 }};
 
-constexpr std::array<Choice<GridMethod>, 6> of_method{{
-    {GridMethod::uniform, "uniform", "Uniform", "Equal parameter steps, no adaptation"},
-    {GridMethod::redistribution,
-     "redistribution",
-     "1-D redistribution",
-     "Equal shares of sqrt(e) / h on each track separately"},
-    {GridMethod::elliptic, "elliptic", "Elliptic", "Brackbill-Saltzman elliptic grid, weighted by the error"},
-    {GridMethod::harmonic,
-     "harmonic",
-     "Harmonic map",
-     "Uses the weight as a metric along the tracks; the tracks move together less than their nodes do"},
-    {GridMethod::tracks,
-     "tracks",
-     "Track optimiser",
-     "Places the nodes of each track so that its error is smallest"},
-    {GridMethod::chain,
-     "chain",
-     "Whole chain",
-     "Chooses tracks, places their nodes, then moves all nodes at once; slow"},
-}};
+std::vector<Choice<GridMethod>> method_choices() {
+    std::vector<Choice<GridMethod>> choices;
+    for (const GridMethod method : every_grid_method) {
+        const GridMethodRow& row = row_of(method);
+        choices.push_back({method, row.id, row.label, row.tip});
+    }
+    return choices;
+}
 
 constexpr std::array<Choice<WeightSource>, 7> of_weight{{
     {WeightSource::error, "error", "Error density", "The measured error, e/h^2, scaled and smoothed"},
@@ -325,7 +315,8 @@ std::span<const Choice<TrackDirection>> track_directions() {
     return of_direction;
 }
 std::span<const Choice<GridMethod>> grid_methods() {
-    return of_method;
+    static const std::vector<Choice<GridMethod>> choices = method_choices();
+    return choices;
 }
 std::span<const Choice<EllipticMethod>> elliptic_solvers() {
     return of_solver;

@@ -12,12 +12,12 @@
 #include "core/grid/weight_mix.h"
 #include "core/kinematics/rotary_tilt.h"
 #include "core/project/arm_input.h"
+#include "core/project/grid_methods/grid_method.h"
 #include "core/project/plot_input.h"
 #include "core/project/processor_input.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/sequenced_path.h"
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -70,17 +70,6 @@ struct MachineInput {
 
     friend bool operator==(const MachineInput&, const MachineInput&) = default;
 };
-
-/// How a grid is made.
-enum class GridMethod { uniform, redistribution, elliptic, harmonic, tracks, chain };
-inline constexpr std::array every_grid_method{GridMethod::uniform,
-                                              GridMethod::redistribution,
-                                              GridMethod::elliptic,
-                                              GridMethod::harmonic,
-                                              GridMethod::tracks,
-                                              GridMethod::chain};
-/// Made whether the program uses them or not, to be compared; the others only where it does.
-inline constexpr std::array compared_methods{GridMethod::elliptic, GridMethod::tracks};
 
 /// Of the one-dimensional redistribution.
 struct RedistributionInput {

@@ -1,10 +1,9 @@
 #include "core/plan/skipped_comparisons.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/workspaces/shown_grid.h"
 #include "ui/workspaces/wanted_plan.h"
-
-#include <algorithm>
 
 namespace millwright::actions {
 
@@ -36,8 +35,7 @@ template <project::GridMethod method> void show(ActionContext& context) {
 bool is_made_when_shown(const FrameState& now, project::GridMethod method) {
     return now.plan && !now.plan->plan.grid(method).failure &&
            !wanted_plan(now.view_state, now.project).comparisons &&
-           !plan::is_comparison_skipped(now.project, method) &&
-           std::ranges::count(project::compared_methods, method) > 0;
+           !plan::is_comparison_skipped(now.project, method) && row_of(method).compared;
 }
 
 template <project::GridMethod method> widgets::Permission is_there(const FrameState& now) {

@@ -106,7 +106,8 @@ void error_table(Ui& ui, std::string_view id, const FrameState& now, ActionQueue
         return rows[static_cast<std::size_t>(row)].cells[static_cast<std::size_t>(column)];
     };
     view.row_id = [&](std::ptrdiff_t row) { return rows[static_cast<std::size_t>(row)].id; };
-    view.chosen = now.shows_own_path() ? grids : static_cast<std::ptrdiff_t>(actions::shown_grid(now));
+    view.chosen =
+        now.shows_own_path() ? grids : static_cast<std::ptrdiff_t>(index_of(actions::shown_grid(now)));
     view.height = table_height(ui, view.rows);
     if (const auto row = widgets::table(ui, id, view)) {
         const std::string chosen = view.row_id(*row);

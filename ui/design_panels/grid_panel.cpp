@@ -132,7 +132,7 @@ void draw_note(Ui& ui, const FrameState& now) {
     for (const std::string& note : no_gain_notes(now)) {
         ui.note(note);
     }
-    const bool is_there = std::ranges::any_of(project::compared_methods, [&](GridMethod method) {
+    const bool is_there = std::ranges::any_of(project::every_grid_method, [&](GridMethod method) {
         return plan::is_comparison_skipped(now.project, method) &&
                now.evaluation(method); // of before, and still so
     });

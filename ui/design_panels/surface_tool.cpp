@@ -3,6 +3,7 @@
 #include "core/base/counted.h"
 #include "core/plan/grids.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/chosen_weight.h"
 #include "core/project/setting_tables.h"
 #include "core/project/surface.h"
 #include "ui/panels/fields.h"
@@ -193,9 +194,9 @@ void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQu
     const grid::Brush brush{
         .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
     const auto paint = [painted, brush](Project& p) {
-        plan::paint_weight(
+        project::paint_weight(
             p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
-        plan::let_paint_count(p.grid.elliptic);
+        project::let_paint_count(p.grid.elliptic);
     };
     ask.drag(painted.stage,
              actions::dragged_in_project(tool.erases ? "Erase the weight" : "Paint the weight", paint));

@@ -4,8 +4,8 @@
 #include "core/base/text.h"
 #include "core/base/units.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
-#include <array>
 #include <cmath>
 
 namespace millwright::viewport {
@@ -88,9 +88,7 @@ std::string subtitle(const project::Project& project, const plan::Plan& plan, Vi
 } // namespace
 
 std::string_view title(GridMethod method) {
-    constexpr std::array<std::string_view, project::every_grid_method.size()> titles = {
-        "uniform", "redistributed", "adapted", "harmonic map", "optimised", "whole chain"};
-    return titles[static_cast<std::size_t>(method)];
+    return row_of(method).caption;
 }
 
 std::string program_title(const project::Project& project) {

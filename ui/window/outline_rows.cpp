@@ -2,9 +2,9 @@
 
 #include "core/base/counted.h"
 #include "core/base/text.h"
-#include "core/plan/grid_method.h"
 #include "core/plan/skipped_comparisons.h"
 #include "core/plan/strategy_path.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/workspaces/shown_grid.h"
@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -54,8 +53,8 @@ std::string short_count(std::ptrdiff_t count, std::string_view one) {
 
 /// Grids that are there, that the program uses, or that are made to compare where that is looked at.
 bool is_listed(const FrameState& now, GridMethod method) {
-    const bool compared = std::ranges::count(project::compared_methods, method) > 0 &&
-                          actions::wanted_plan(now.view_state, now.project).comparisons;
+    const bool compared =
+        row_of(method).compared && actions::wanted_plan(now.view_state, now.project).comparisons;
     const bool failed = now.plan && now.plan->plan.grid(method).failure;
     return method == GridMethod::uniform || compared || failed || now.evaluation(method) ||
            plan::program_grid(now.project) == method;
@@ -79,7 +78,7 @@ std::vector<OutlineRow> outline_rows(const FrameState& now) {
     for (const GridMethod method : project::every_grid_method) {
         if (is_listed(now, method)) {
             rows.push_back({std::string(project::row_of(project::grid_methods(), method).id),
-                            fmt::format("  {}", plan::row_of(method).short_name),
+                            fmt::format("  {}", row_of(method).short_name),
                             error_of(now, method),
                             Workspace::toolpath,
                             is_so_far(now.evaluation(method).get())});

@@ -41,55 +41,21 @@ Approach approach_for(const ApproachWish& wish) {
     return answer;
 }
 
-ApproachFinder::ApproachFinder(std::function<void()> wake)
-    : wake_(std::move(wake)), thread_([this](const std::stop_token& stop) { work(stop); }) {}
-
 void ApproachFinder::want(std::optional<ApproachWish> wish) {
-    {
-        const std::scoped_lock lock(mutex_);
-        if (wish == wish_) {
-            return;
-        }
-        wish_ = std::move(wish);
-        answer_.reset();
-        due_ = wish_.has_value();
+    if (wish == wish_) {
+        return;
     }
-    changed_.notify_all();
+    wish_ = std::move(wish);
+    if (wish_) {
+        work_.want(*wish_);
+    } else {
+        work_.forget();
+    }
 }
 
 std::shared_ptr<const Approach> ApproachFinder::answer() const {
-    const std::scoped_lock lock(mutex_);
-    return answer_;
-}
-
-void ApproachFinder::wait_idle() const {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return !due_ && !busy_; });
-}
-
-void ApproachFinder::work(const std::stop_token& stop) {
-    while (true) {
-        std::optional<ApproachWish> wish;
-        {
-            std::unique_lock lock(mutex_);
-            if (!changed_.wait(lock, stop, [this] { return due_; })) {
-                return;
-            }
-            wish = wish_;
-            due_ = false;
-            busy_ = true;
-        }
-        auto found = std::make_shared<const Approach>(approach_for(*wish));
-        {
-            const std::scoped_lock lock(mutex_);
-            busy_ = false;
-            if (wish == wish_) {
-                answer_ = std::move(found);
-            }
-        }
-        changed_.notify_all();
-        wake_();
-    }
+    auto found = work_.answer();
+    return found && wish_ && found->wish == *wish_ ? found : nullptr;
 }
 
 } // namespace millwright::actions

@@ -6,14 +6,13 @@
 #include "core/jobs/job.h"
 #include "core/jobs/run_from_line.h"
 #include "ui/workspaces/job_source.h"
+#include "ui/workspaces/latest_work.h"
 
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
 namespace millwright::actions {
@@ -50,28 +49,22 @@ struct Approach {
 class ApproachFinder {
 public:
     /// `wake` is called from its thread when there is an answer.
-    explicit ApproachFinder(std::function<void()> wake);
-    ApproachFinder(const ApproachFinder&) = delete;
-    ApproachFinder& operator=(const ApproachFinder&) = delete;
-    ~ApproachFinder() = default;
+    explicit ApproachFinder(std::function<void()> wake) : work_(work_out, std::move(wake)) {}
 
     /// Works on `wish` in place of the one before; nothing: on none.
     void want(std::optional<ApproachWish> wish);
     /// To the present wish; null while there is none yet.
     [[nodiscard]] std::shared_ptr<const Approach> answer() const;
     /// Blocks until nothing is left to do.
-    void wait_idle() const;
+    void wait_idle() const { work_.wait_idle(); }
 
 private:
-    void work(const std::stop_token& stop);
+    static Approach work_out(const ApproachWish& wish, const Progress& /*progress*/) {
+        return approach_for(wish);
+    }
 
-    std::function<void()> wake_;
-    mutable std::mutex mutex_; ///< guards what follows
-    mutable std::condition_variable_any changed_;
     std::optional<ApproachWish> wish_;
-    bool due_ = false, busy_ = false;
-    std::shared_ptr<const Approach> answer_;
-    std::jthread thread_; // last: it ends before what it uses
+    LatestWork<ApproachWish, Approach> work_;
 };
 
 } // namespace millwright::actions

@@ -37,10 +37,14 @@ void PlotWorkspace::follow(const project::PlotInput& input) {
     if (another) {
         material_.reset();
     }
-    read_again();
+    derive(false);
 }
 
 void PlotWorkspace::read_again() {
+    derive(true);
+}
+
+void PlotWorkspace::derive(bool anew) {
     if (input_.file.empty()) {
         worker_.cancel();
         return;
@@ -48,7 +52,7 @@ void PlotWorkspace::read_again() {
     if (materials_.empty()) {
         materials_ = materials_in(assets_);
     }
-    request_ = worker_.request(input_);
+    request_ = anew ? worker_.request_anew(input_) : worker_.request(input_);
 }
 
 std::shared_ptr<const plan::PlotResult> PlotWorkspace::latest() const {

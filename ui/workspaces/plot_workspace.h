@@ -82,6 +82,7 @@ public:
     void wait_idle() const { worker_.wait_idle(); }
 
 private:
+    void derive(bool anew);
     /// The machine of the settings. Throws Error.
     [[nodiscard]] std::shared_ptr<const kinematics::MachineModel> model() const;
 

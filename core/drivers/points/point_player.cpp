@@ -55,20 +55,19 @@ PointPlayer::PointPlayer(links::Link* link,
                          const MachineModel& model,
                          const PlayerOptions& options)
     : link_(link), clock_(clock), track_(checked_track(std::move(track))), options_(checked_options(options)),
-      text_(options.format, model, point_decimals),
-      path_(options.format.relative, track_->period, point_decimals), index_(table_axes(model)),
-      axes_(static_cast<std::size_t>(model.axis_count())) {
+      index_(table_axes(model)), axes_(kinematics::AxisPositions::Zero(model.axis_count())),
+      sender_({options.format, track_->period, point_decimals}, model) {
     expect_all_named(track_->points, options.format.pattern);
     status_.position = track_->points.front();
-    if (link_ != nullptr && options_.format.answer.empty()) {
+    if (link_ != nullptr && !sender_.asks()) {
         links::expect_carried(*link_, longest_record(), interval());
     }
 }
 
 /// Of the machine, at point `n`.
-const std::vector<double>& PointPlayer::axes_at(std::size_t n) {
+const kinematics::AxisPositions& PointPlayer::axes_at(std::size_t n) {
     for (std::size_t k = 0; k < index_.size(); ++k) {
-        axes_[index_[k]] = track_->points[n][static_cast<Eigen::Index>(k)];
+        axes_[static_cast<Eigen::Index>(index_[k])] = track_->points[n][static_cast<Eigen::Index>(k)];
     }
     return axes_;
 }
@@ -79,9 +78,8 @@ std::size_t PointPlayer::longest_record() {
     const std::size_t count = track_->points.size();
     std::size_t longest = 0;
     for (std::size_t n = 0; n < count; n += std::max<std::size_t>(1, count / looked_at)) {
-        path_.begin(axes_at(n == 0 ? 0 : n - 1));
-        const Record record = path_.to(axes_at(n), std::vector<bool>(axes_.size(), true));
-        longest = std::max(longest, text_.written(record).size() + options_.format.ending.size());
+        sender_.begin(axes_at(n == 0 ? 0 : n - 1));
+        longest = std::max(longest, sender_.to(axes_at(n)).size());
     }
     return longest;
 }
@@ -90,7 +88,7 @@ PlayStatus PointPlayer::status() const {
     const std::scoped_lock lock(mutex_);
     PlayStatus now = status_;
     now.jitter = meter_.jitter();
-    now.unsure = now.state == PlayState::emergency_stop && awaits_answer_;
+    now.unsure = now.state == PlayState::emergency_stop && sender_.owed();
     return now;
 }
 
@@ -140,26 +138,23 @@ std::string PointPlayer::complaint() {
     if (const auto why = link_->lost()) {
         return links::loss_sentence(*why);
     }
-    inbox_.add(link_->read());
-    while (const auto line = inbox_.next()) {
-        if (std::string why = heard(*line); !why.empty()) {
+    const std::string bytes = link_->read();
+    const std::scoped_lock lock(mutex_);
+    for (auto heard = sender_.hear(bytes); heard; heard = sender_.hear()) {
+        if (std::string why = complaint_of(*heard); !why.empty()) {
             return why;
         }
+        take_answer();
     }
     return {};
 }
 
-std::string PointPlayer::heard(const std::string& line) {
-    const std::scoped_lock lock(mutex_);
-    const bool awaited = std::exchange(awaits_answer_, false);
-    if (line != options_.format.answer) {
-        return fmt::format("the table sent '{}'", line);
+/// Empty for an answer as it should be.
+std::string PointPlayer::complaint_of(const PointSender::Heard& heard) const {
+    if (heard.line != options_.format.answer) {
+        return fmt::format("the table sent '{}'", heard.line);
     }
-    if (!awaited) {
-        return "the table answered a point that was not sent";
-    }
-    take_answer();
-    return {};
+    return heard.kind == PointSender::Answer::unasked ? "the table answered a point that was not sent" : "";
 }
 
 /// The table has the point that was sent last. With the mutex held.
@@ -184,7 +179,7 @@ void PointPlayer::wait_for_answer(const std::stop_token& stop) {
     const double end_of_patience = sent_at_ + options_.format.patience;
     const auto waits = [this] {
         const std::scoped_lock lock(mutex_);
-        return awaits_answer_;
+        return sender_.owed();
     };
     while (waits() && goes_on()) {
         heed(stop);
@@ -247,19 +242,17 @@ PointPlayer::Sending PointPlayer::send(std::size_t n, double due) {
     if (status_.state != PlayState::playing) {
         return status_.state == PlayState::holding ? Sending::held : Sending::over;
     }
-    const std::vector<double>& axes = axes_at(n);
+    const kinematics::AxisPositions& axes = axes_at(n);
     if (n == 0) {
-        path_.begin(axes);
+        sender_.begin(axes);
     }
-    const Record record = path_.to(axes, std::vector<bool>(axes_.size(), true));
     meter_.add(clock_.now() - due);
     if (link_ != nullptr) {
-        link_->write(text_.written(record) + options_.format.ending);
+        link_->write(sender_.to(axes));
     }
     sent_at_ = clock_.now();
     status_.sent = static_cast<std::int64_t>(n) + 1;
-    awaits_answer_ = link_ != nullptr && !options_.format.answer.empty();
-    if (!awaits_answer_) {
+    if (!sender_.owed()) {
         take_answer();
     }
     return Sending::sent;

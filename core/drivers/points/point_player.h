@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/base/clock.h"
-#include "core/drivers/answer_lines.h"
 #include "core/drivers/jitter.h"
+#include "core/drivers/point_sender.h"
 #include "core/drivers/point_track.h"
 #include "core/drivers/stream/record_format.h"
 #include "core/geometry/vectors.h"
@@ -18,7 +18,6 @@
 #include <mutex>
 #include <stop_token>
 #include <string>
-#include <vector>
 
 namespace millwright::drivers {
 
@@ -82,7 +81,7 @@ private:
     enum class Sending { sent, held, over };
 
     [[nodiscard]] bool goes_on() const;
-    [[nodiscard]] const std::vector<double>& axes_at(std::size_t n);
+    [[nodiscard]] const kinematics::AxisPositions& axes_at(std::size_t n);
     [[nodiscard]] std::size_t longest_record();
     void wait_until(double time, const std::stop_token& stop);
     void wait_out(double due, const std::stop_token& stop);
@@ -90,7 +89,7 @@ private:
     void rest(const std::stop_token& stop, const Listener& listener);
     void rest_at_stops(std::size_t n, const std::stop_token& stop, const Listener& listener);
     void take_answer();
-    [[nodiscard]] std::string heard(const std::string& line);
+    [[nodiscard]] std::string complaint_of(const PointSender::Heard& heard) const;
     [[nodiscard]] Sending send(std::size_t n, double due);
     void end(PlayState state, std::string sentence);
     [[nodiscard]] std::string complaint();
@@ -101,16 +100,13 @@ private:
     Clock& clock_;
     std::shared_ptr<const PointTrack> track_;
     PlayerOptions options_;
-    RecordText text_;
-    RecordPath path_;
     std::array<std::size_t, 3> index_{}; ///< of X, Y, Z among the machine's axes
-    std::vector<double> axes_;           ///< of the machine, at the last point
-    AnswerLines inbox_;
-    double sent_at_ = 0.0;       ///< of the clock, the last point
-    double begin_ = 0.0;         ///< of the clock, the first point, later by every rest
-    double reported_at_ = 0.0;   ///< of the clock, to the listener
-    mutable std::mutex mutex_;   ///< guards what follows, and each sending
-    bool awaits_answer_ = false; ///< to the last point
+    kinematics::AxisPositions axes_;     ///< of the machine, at the last point
+    double sent_at_ = 0.0;               ///< of the clock, the last point
+    double begin_ = 0.0;                 ///< of the clock, the first point, later by every rest
+    double reported_at_ = 0.0;           ///< of the clock, to the listener
+    mutable std::mutex mutex_;           ///< guards what follows, and each sending
+    PointSender sender_;
     bool begun_ = false;
     PlayStatus status_;
     JitterMeter meter_;

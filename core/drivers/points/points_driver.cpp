@@ -1,7 +1,7 @@
 #include "core/drivers/points/points_driver.h"
 
 #include "core/base/error.h"
-#include "core/drivers/stream/record_format.h"
+#include "core/drivers/point_sender.h"
 #include "core/drivers/table_axes.h"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ PointsDriver::PointsDriver(std::unique_ptr<links::Link> link,
                            PlayerOptions options)
     : link_(std::move(link)), clock_(clock), model_(std::move(model)), options_(std::move(options)),
       index_(table_axes(*model_)), position_(position) {
-    static_cast<void>(RecordText(options_.format, *model_, point_decimals)); // throws for what is no record
+    static_cast<void>(PointSender({.record = options_.format}, *model_)); // throws for what is no record
 }
 
 PointsDriver::~PointsDriver() {

@@ -1,8 +1,6 @@
 #include "core/drivers/stream/stream_driver.h"
 
 #include "core/base/error.h"
-#include "core/base/text.h"
-#include "core/base/units.h"
 
 #include <fmt/format.h>
 
@@ -11,34 +9,31 @@
 
 namespace millwright::drivers {
 
-using kinematics::AxisKind;
 using kinematics::AxisPositions;
+
+namespace {
+
+StreamOptions checked_stream(const StreamOptions& options) {
+    constexpr double shortest = 0.0005;
+    constexpr double longest = 1.0;
+    if (!(options.period >= shortest && options.period <= longest)) {
+        throw Error(fmt::format(
+            "a sampling period of {} s is not between {} and {}", options.period, shortest, longest));
+    }
+    return options;
+}
+
+} // namespace
 
 StreamDriver::StreamDriver(std::unique_ptr<links::Link> link,
                            const Clock& clock,
                            std::shared_ptr<const kinematics::MachineModel> model,
                            AxisPositions position,
                            StreamOptions options)
-    : link_(std::move(link)), clock_(clock), model_(std::move(model)), options_(options),
+    : link_(std::move(link)), clock_(clock), model_(std::move(model)), options_(checked_stream(options)),
       machine_(std::move(position), {1.0}, stream_clock_, model_),
-      record_path_(options_.record && options_.record->relative, options_.period, options_.decimals) {
+      sender_({options_.record, options_.period, options_.decimals}, *model_) {
     known_ = options.known;
-    constexpr double shortest = 0.0005;
-    constexpr double longest = 1.0;
-    constexpr int most_decimals = 9;
-    if (!(options.period >= shortest && options.period <= longest)) {
-        throw Error(fmt::format(
-            "a sampling period of {} s is not between {} and {}", options.period, shortest, longest));
-    }
-    if (options.decimals < 0 || options.decimals > most_decimals) {
-        throw Error(fmt::format("{} decimals are not between 0 and {}", options.decimals, most_decimals));
-    }
-    for (const kinematics::MachineAxis& axis : model_->axes()) {
-        linear_.push_back(axis.kind == AxisKind::linear);
-    }
-    if (options_.record) {
-        record_text_.emplace(*options_.record, *model_, options_.decimals);
-    }
 }
 
 StreamDriver::~StreamDriver() {
@@ -54,7 +49,7 @@ Capabilities StreamDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
     able.told_place = true;
     able.tells_spindle = false;
-    able.answers = awaits_answers();
+    able.answers = sender_.asks();
     return able;
 }
 
@@ -71,43 +66,13 @@ DriverStatus StreamDriver::status() const {
     return status;
 }
 
-std::string StreamDriver::heading() const {
-    std::string text = fmt::format("# millwright-stream 1 period_s {}", options_.period);
-    for (const kinematics::MachineAxis& axis : model_->axes()) {
-        text += fmt::format(" {} {}", axis.letter, axis.kind == AxisKind::rotary ? "deg" : "mm");
-    }
-    return text + "\n";
-}
-
-std::vector<double> StreamDriver::as_written(const AxisPositions& position) const {
-    std::vector<double> values;
-    for (int n = 0; n < model_->axis_count(); ++n) {
-        values.push_back(linear_[static_cast<std::size_t>(n)] ? position[n] : to_degrees(position[n]));
-    }
-    return values;
-}
-
-std::string StreamDriver::line(const AxisPositions& position) const {
-    std::string text;
-    for (const double value : as_written(position)) {
-        text += (text.empty() ? "" : " ") + fixed(value, options_.decimals);
-    }
-    return text + "\n";
-}
-
-std::string StreamDriver::text_for(const AxisPositions& position) {
-    return record_text_ ? record_text_->written(record_path_.to(as_written(position), linear_)) +
-                              options_.record->ending
-                        : line(position);
-}
-
 void StreamDriver::connect() {
     if (machine_.status().state == DriverState::disconnected) {
-        if (options_.paced && !awaits_answers()) {
+        if (options_.paced && !sender_.asks()) {
             constexpr double usual = 100.0; // as long as positions are
             const AxisPositions position = AxisPositions::Constant(model_->axis_count(), usual);
-            record_path_.begin(as_written(position));
-            links::expect_carried(*link_, text_for(position).size(), options_.period);
+            sender_.begin(position);
+            links::expect_carried(*link_, sender_.to(position).size(), options_.period);
         }
         link_->open();
         machine_.connect();
@@ -117,9 +82,9 @@ void StreamDriver::connect() {
 
 /// Over a link that was just opened.
 void StreamDriver::begin() {
-    inbox_.clear();
-    if (!record_text_) {
-        link_->write(heading());
+    sender_.forget_bytes();
+    if (!sender_.heading().empty()) {
+        link_->write(sender_.heading());
     }
     follow();
 }
@@ -127,14 +92,12 @@ void StreamDriver::begin() {
 /// From its present position.
 void StreamDriver::follow() {
     const AxisPositions position = machine_.status().position;
-    if (record_text_) { // it stands there already
-        record_path_.begin(as_written(position));
-    }
+    sender_.begin(position); // it stands there already
     {
         const std::scoped_lock lock(mutex_);
         lost_.clear();
-        last_line_ = line(position);
-        told_place_ = record_text_.has_value();
+        last_line_ = sender_.line(position);
+        told_place_ = sender_.writes_records();
         in_flight_ = false;
     }
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -165,7 +128,7 @@ void StreamDriver::run(const std::stop_token& stop) {
         } else if (stands) {
             link_->wait(rest);
         }
-        if (stands || awaits_answers()) {
+        if (stands || sender_.asks()) {
             next = std::max(next, clock_.now() - options_.period);
         }
         if (!send_sample(stop)) {
@@ -197,7 +160,7 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
     {
         const std::scoped_lock lock(mutex_);
         proven_ = machine_.status();
-        in_flight_ = awaits_answers();
+        in_flight_ = sender_.asks();
     }
     stream_clock_.wait(options_.period);
     const DriverStatus now = machine_.status();
@@ -205,7 +168,7 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
         land();
         return true;
     }
-    std::string here = line(now.position);
+    std::string here = sender_.line(now.position);
     const bool in_motion = now.state == DriverState::running || now.state == DriverState::stopping;
     if (!in_motion && here == last_line_) {
         land();
@@ -213,7 +176,7 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
     }
     const bool first = !std::exchange(told_place_, true);
     samples_ += first ? 1 : 0;
-    if (const auto why = exchange((first ? last_line_ : std::string()) + text_for(now.position), stop)) {
+    if (const auto why = exchange(first ? last_line_ : std::string(), now.position, stop)) {
         lose(*why);
         return false;
     }
@@ -224,29 +187,27 @@ bool StreamDriver::send_sample(const std::stop_token& stop) {
     return true;
 }
 
-std::optional<std::string> StreamDriver::next_answer() {
-    inbox_.add(link_->read());
-    return inbox_.next();
-}
-
-/// Sends, and waits for the answer where one is awaited. Why that failed; nothing if it did not.
-std::optional<std::string> StreamDriver::exchange(const std::string& text, const std::stop_token& stop) {
-    if (!awaits_answers()) {
-        link_->write(text);
+/// Sends `before` and the position, and waits for the answer where one is awaited. Why that failed; nothing
+/// if it did not.
+std::optional<std::string> StreamDriver::exchange(const std::string& before,
+                                                  const AxisPositions& position,
+                                                  const std::stop_token& stop) {
+    if (!sender_.asks()) {
+        link_->write(before + sender_.to(position));
         return std::nullopt;
     }
-    if (const auto unasked = next_answer()) {
-        return fmt::format("the machine sent '{}' before record {} was sent", *unasked, samples_ + 1);
+    if (const auto unasked = hear()) {
+        return fmt::format("the machine sent '{}' before record {} was sent", unasked->line, samples_ + 1);
     }
-    link_->write(text);
+    link_->write(before + sender_.to(position));
     const RecordFormat& format = *options_.record;
     const double end = clock_.now() + format.patience;
     while (!stop.stop_requested()) {
-        if (const auto answer = next_answer()) {
-            return *answer == format.answer
+        if (const auto answer = hear()) {
+            return answer->kind == PointSender::Answer::right
                        ? std::nullopt
-                       : std::optional(
-                             fmt::format("the machine answered '{}' to record {}", *answer, samples_ + 1));
+                       : std::optional(fmt::format(
+                             "the machine answered '{}' to record {}", answer->line, samples_ + 1));
         }
         if (const auto why = link_->lost()) {
             return why;
@@ -271,8 +232,8 @@ template <class Act> auto StreamDriver::between_records(const Act& act) {
 }
 
 void StreamDriver::start(Work work) {
-    if (record_text_ && work.program) {
-        record_text_->expect_all_told(*work.program, *model_);
+    if (work.program) {
+        sender_.expect_all_told(*work.program, *model_);
     }
     between_records([&] { machine_.start(std::move(work)); });
 }

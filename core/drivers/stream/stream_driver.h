@@ -6,8 +6,8 @@
 #pragma once
 
 #include "core/base/clock.h"
-#include "core/drivers/answer_lines.h"
 #include "core/drivers/driver.h"
+#include "core/drivers/point_sender.h"
 #include "core/drivers/stream/record_format.h"
 #include "core/drivers/virtual_machine/virtual_machine.h"
 #include "core/links/link.h"
@@ -97,15 +97,12 @@ private:
     [[nodiscard]] bool send_sample(const std::stop_token& stop);
     void land();
     [[nodiscard]] static bool moves(const DriverStatus& status);
-    [[nodiscard]] std::string line(const kinematics::AxisPositions& position) const;
-    [[nodiscard]] std::string heading() const;
     [[nodiscard]] std::string lost() const;
     void lose(const std::string& why);
-    [[nodiscard]] bool awaits_answers() const { return options_.record && !options_.record->answer.empty(); }
-    [[nodiscard]] std::optional<std::string> exchange(const std::string& text, const std::stop_token& stop);
-    [[nodiscard]] std::optional<std::string> next_answer();
-    [[nodiscard]] std::vector<double> as_written(const kinematics::AxisPositions& position) const;
-    [[nodiscard]] std::string text_for(const kinematics::AxisPositions& position);
+    [[nodiscard]] std::optional<std::string> exchange(const std::string& before,
+                                                      const kinematics::AxisPositions& position,
+                                                      const std::stop_token& stop);
+    [[nodiscard]] std::optional<PointSender::Heard> hear() { return sender_.hear(link_->read()); }
     template <class Act> auto between_records(const Act& act);
 
     std::unique_ptr<links::Link> link_;
@@ -114,10 +111,7 @@ private:
     StreamOptions options_;
     StreamClock stream_clock_;
     VirtualMachine machine_;
-    std::optional<RecordText> record_text_;
-    RecordPath record_path_;
-    std::vector<bool> linear_; ///< of each axis
-    AnswerLines inbox_;
+    PointSender sender_;
     bool told_place_ = false;        ///< where the first motion begins was sent
     std::atomic<bool> known_ = true; ///< its position
     std::atomic<std::int64_t> samples_ = 0;

@@ -1,15 +1,17 @@
-// The worked example of docs/dev/recipes.md, "Add a grid method": all that a new method is but its
-// enumerator.
+// The worked example of docs/dev/recipes.md, "Add a grid method": all that a new method is but its line in
+// core/project/grid_methods/grid_method.h.
 #include "core/base/units.h"
-#include "core/plan/grid_method.h"
 #include "core/plan/plan.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "tests/core/plan/sample_projects.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <memory>
+#include <set>
+#include <string_view>
 
 namespace millwright::plan {
 namespace {
@@ -49,24 +51,40 @@ private:
     grid::OptimiserState state_;
 };
 
-const GridMethodRow end_spacing_row{
-    .method = project::GridMethod::redistribution, // a new method has its own
+} // namespace
+} // namespace millwright::plan
+
+namespace millwright::project {
+
+extern const GridMethodRow end_spacing_row; // in grid_method.h
+
+constinit const GridMethodRow end_spacing_row{
+    .id = "end-spacing",
+    .label = "End spacing",
+    .tip = "Nodes closer together at the ends of the tracks",
     .report_key = "end_spacing",
     .short_name = "Ends",
+    .caption = "denser at the ends",
     .title = "Moving the nodes to the ends",
     .share = 0.02,
-    .same_settings = [](const project::GridInput&, const project::GridInput&) { return true; },
+    .same_settings = [](const GridInput&, const GridInput&) { return true; },
     .optimiser = [](GridStart from) -> std::unique_ptr<grid::GridOptimiser> {
         expect_straight_tracks(from.input.direction, from.start);
-        return std::make_unique<EndSpacing>(from.error, from.start, from.input.direction);
+        return std::make_unique<plan::EndSpacing>(from.error, from.start, from.input.direction);
     }};
+
+} // namespace millwright::project
+
+namespace millwright::plan {
+namespace {
+
+constexpr project::GridMethod end_spacing{&project::end_spacing_row};
 
 TEST(GridRecipe, ARowMakesAGridThatIsMeasuredLikeTheOthers) {
     const project::Project project = test::small_sample("dome", 9);
     const CuttingSetup cutting_setup = cutting_setup_of(project, test::sample_folders);
     const toolpath::KinematicError error = cutting_setup.error_model();
-    const auto optimiser =
-        end_spacing_row.optimiser({project.grid, error, uniform_outcome(project.grid).grid, Effort::full});
+    const auto optimiser = make_optimiser(end_spacing, project.grid, error);
     const Evaluation found =
         evaluate(cutting_setup, improved_outcome(*optimiser, {}), report_sampling, Progress());
     EXPECT_EQ(found.outcome.grid.nu(), 9);
@@ -75,12 +93,24 @@ TEST(GridRecipe, ARowMakesAGridThatIsMeasuredLikeTheOthers) {
     EXPECT_EQ(state.best.array() == state.reached, state.now.mean < state.start.mean);
 }
 
-TEST(GridMethodRows, StandInTheOrderOfTheirEnumeratorsAndAreComplete) {
-    ASSERT_EQ(grid_method_rows().size(), project::every_grid_method.size());
+TEST(GridRecipe, ItsRowIsAllThatItIsKnownBy) {
+    EXPECT_EQ(row_of(end_spacing).label, "End spacing");
+    EXPECT_FALSE(end_spacing == project::GridMethod::redistribution);
+    EXPECT_FALSE(uses_weight(end_spacing));
+    EXPECT_EQ(memory_sentence(end_spacing, {}), "");
+    EXPECT_EQ(index_of(end_spacing), project::every_grid_method.size()) << "it is not in the list";
+}
+
+TEST(GridMethodRows, AreCompleteAndDifferFromEachOther) {
+    std::set<std::string_view> names;
     for (const project::GridMethod method : project::every_grid_method) {
-        const GridMethodRow& row = row_of(method);
-        EXPECT_EQ(row.method, method);
-        EXPECT_FALSE(row.report_key.empty() || row.short_name.empty() || row.title.empty());
+        const project::GridMethodRow& row = row_of(method);
+        EXPECT_EQ(project::every_grid_method.at(index_of(method)), method);
+        for (const std::string_view text :
+             {row.id, row.label, row.tip, row.report_key, row.short_name, row.caption, row.title}) {
+            EXPECT_FALSE(text.empty()) << row.id;
+        }
+        EXPECT_TRUE(names.insert(row.id).second) << row.id;
         EXPECT_GT(row.share, 0.0);
         EXPECT_TRUE(row.same_settings({}, {}));
         EXPECT_EQ(row.optimiser == nullptr, method == project::GridMethod::uniform);

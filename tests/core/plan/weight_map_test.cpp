@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/geometry/presets.h"
 #include "core/plan/grids.h"
+#include "core/project/grid_methods/chosen_weight.h"
 #include "tests/support/machines.h"
 
 #include <gtest/gtest.h>

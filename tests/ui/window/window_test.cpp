@@ -137,7 +137,7 @@ TEST(MainWindow, SideBySideTellsTheTimeOnTheMachineWhereItIsKnown) {
     person.wait_idle();
     const auto now = person.app().look();
     ASSERT_TRUE(now.trajectory());
-    const auto program = static_cast<std::size_t>(plan::program_grid(now.project));
+    const auto program = index_of(plan::program_grid(now.project));
     const std::vector<ErrorRow> rows = error_rows(now);
     EXPECT_EQ(rows[program].cells.back(), fixed(now.trajectory()->duration(), 1));
     for (std::size_t n = 0; n < rows.size(); ++n) {
@@ -153,7 +153,7 @@ TEST(MainWindow, SaysOfAGridThatStandsInForTheNewOneThatItIsSoFar) {
     person.wait_idle();
     auto now = person.app().look();
     plan::PublishedPlan plan = *now.plan;
-    const auto elliptic = static_cast<std::size_t>(GridMethod::elliptic);
+    const auto elliptic = index_of(GridMethod::elliptic);
     EXPECT_EQ(error_rows(now)[elliptic].cells.front(), "Elliptic");
 
     plan::Evaluation carried = *plan.plan.grid(GridMethod::elliptic).evaluation;

@@ -41,15 +41,8 @@ double time_of(double length, double speed, double acceleration) {
     return length < to_speed ? 2.0 * std::sqrt(length / acceleration) : length / speed + speed / acceleration;
 }
 
-std::vector<double> values_of(const AxisPositions& position) {
-    return {position.data(), position.data() + position.size()};
-}
-
-RecordText checked_text(const RecordsOptions& options, const MachineModel& model) {
-    constexpr int most_decimals = 9;
-    if (options.decimals < 0 || options.decimals > most_decimals) {
-        throw Error(fmt::format("{} decimals are not between 0 and {}", options.decimals, most_decimals));
-    }
+/// Of moves that the table plans itself, so that the period does not count.
+PointFormat checked_records(const RecordsOptions& options, const MachineModel& model) {
     std::vector<char> rotary;
     for (const MachineAxis& axis : model.axes()) {
         if (axis.kind != kinematics::AxisKind::linear) {
@@ -62,7 +55,7 @@ RecordText checked_text(const RecordsOptions& options, const MachineModel& model
                                 rotary.size() == 1 ? "axis" : "axes",
                                 fmt::join(rotary, " and ")));
     }
-    return {options.format, model, options.decimals};
+    return {.record = options.format, .decimals = options.decimals};
 }
 
 } // namespace
@@ -71,7 +64,7 @@ RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
                              AxisPositions position,
                              const RecordsOptions& options)
     : model_(std::move(model)), format_(options.format), decimals_(options.decimals),
-      text_(checked_text(options, *model_)), path_(options.format.relative, 1.0, options.decimals) {
+      sender_(checked_records(options, *model_), *model_) {
     expects(position.size() == model_->axis_count(), "the table has a position for each axis");
     status_.position = std::move(position);
     status_.position_known = options.known;
@@ -79,10 +72,10 @@ RecordSession::RecordSession(std::shared_ptr<const MachineModel> model,
 }
 
 void RecordSession::opened(double /*now*/) {
-    inbox_.clear();
+    sender_.forget_bytes();
     pace_ = {};
     listens_until_ = 0.0;
-    path_.begin(values_of(status_.position));
+    sender_.begin(status_.position);
     status_.link_lost = false;
     if (status_.state == DriverState::disconnected) {
         status_.state = left_until_ ? DriverState::stopping : DriverState::idle;
@@ -150,7 +143,7 @@ void RecordSession::start(const Work& work, double now) {
     for (const Block& block : work.program->blocks) {
         expects(block.target.size() == model_->axis_count(), "the program is for this table");
     }
-    text_.expect_all_told(*work.program, *model_);
+    sender_.expect_all_told(*work.program, *model_);
     program_ = work.program;
     listing_ = work.listing;
     trajectory_ = work.trajectory;
@@ -167,12 +160,11 @@ void RecordSession::start(const Work& work, double now) {
 }
 
 void RecordSession::receive(std::string_view bytes, double now) {
-    inbox_.add(bytes);
-    while (const auto line = inbox_.next()) {
+    for (auto heard = sender_.hear(bytes); heard; heard = sender_.hear()) {
         if (left_until_) {
             left_until_.reset();
         } else if (awaits_answers() && status_.state != DriverState::alarm) {
-            answered(*line, now);
+            answered(heard->line, now);
         }
     }
 }
@@ -315,14 +307,11 @@ void RecordSession::send(const Block& block, double now) {
         constexpr double percent = 0.01;
         speed = std::min(fastest, length / block.duration * percent * status_.overrides.feed);
     }
-    Record record = path_.to(values_of(target), std::vector<bool>(values_of(way).size(), true));
-    record.speed = speed;
-    record.acceleration = along(*model_, way, &MachineAxis::max_acceleration);
-    outbox_ += text_.written(record) + format_.ending;
+    const double acceleration = along(*model_, way, &MachineAxis::max_acceleration);
+    outbox_ += sender_.to(target, speed, acceleration);
     ++records_;
     status_.feed = speed;
-    under_way_ =
-        UnderWay{target, now + time_of(length, speed, record.acceleration), true, now, length / speed};
+    under_way_ = UnderWay{target, now + time_of(length, speed, acceleration), true, now, length / speed};
 }
 
 void RecordSession::hold(double /*now*/) {
@@ -373,7 +362,7 @@ void RecordSession::stands_at(const AxisPositions& position) {
     status_.position = position;
     status_.position_known = true;
     status_.position_doubt.clear();
-    path_.begin(values_of(position));
+    sender_.begin(position);
 }
 
 void RecordSession::home(double /*now*/) {

@@ -2,10 +2,10 @@
 // or, where nothing is answered, when the move must be over. Lengths mm, times s.
 #pragma once
 
-#include "core/drivers/answer_lines.h"
 #include "core/drivers/controller_session.h"
 #include "core/drivers/host_stall.h"
 #include "core/drivers/internal/send_window.h"
+#include "core/drivers/point_sender.h"
 #include "core/drivers/records/internal/answer_pace.h"
 #include "core/drivers/records/records_driver.h"
 
@@ -26,7 +26,7 @@ public:
     void start(const Work& work, double now);
     void set_optional_stop(bool on) { optional_stop_ = on; }
     void set_single_block(bool on) { single_block_ = on; }
-    [[nodiscard]] bool awaits_answers() const { return !format_.answer.empty(); }
+    [[nodiscard]] bool awaits_answers() const { return sender_.asks(); }
     /// Records that were sent so far.
     [[nodiscard]] int records() const { return records_; }
 
@@ -82,8 +82,7 @@ private:
     std::shared_ptr<const kinematics::MachineModel> model_;
     RecordFormat format_;
     int decimals_;
-    RecordText text_;
-    RecordPath path_;
+    PointSender sender_;
     std::shared_ptr<const program::Program> program_;
     std::shared_ptr<const program::Listing> listing_;
     std::shared_ptr<const motion::Trajectory> trajectory_; ///< for its times alone; may be null
@@ -101,7 +100,6 @@ private:
     bool rests_ = false; ///< held, and what was under way is over
     bool single_block_ = false;
     int records_ = 0;
-    AnswerLines inbox_;
     std::string outbox_;
     DriverStatus status_;
 };

@@ -1,9 +1,9 @@
 #include "core/grid/redistribution.h"
-#include "core/plan/internal/grid_method_rows.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <utility>
 
-namespace millwright::plan {
+namespace millwright::project {
 
 namespace {
 
@@ -17,14 +17,17 @@ std::unique_ptr<grid::GridOptimiser> redistribution(GridStart from) {
 
 } // namespace
 
-const GridMethodRow redistribution_row{
-    .method = project::GridMethod::redistribution,
+constinit const GridMethodRow redistribution_row{
+    .id = "redistribution",
+    .label = "1-D redistribution",
+    .tip = "Equal shares of sqrt(e) / h on each track separately",
     .report_key = "redistribution",
     .short_name = "1-D",
+    .caption = "redistributed",
     .title = "Redistributing the nodes of each track",
     .share = 0.05,
-    .same_settings = [](const project::GridInput& a,
-                        const project::GridInput& b) { return a.redistribution == b.redistribution; },
+    .same_settings = [](const GridInput& a,
+                        const GridInput& b) { return a.redistribution == b.redistribution; },
     .optimiser = redistribution};
 
-} // namespace millwright::plan
+} // namespace millwright::project

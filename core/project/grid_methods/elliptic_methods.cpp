@@ -2,8 +2,8 @@
 #include "core/base/error.h"
 #include "core/base/numbers.h"
 #include "core/grid/elliptic_adaptation.h"
-#include "core/plan/grids.h"
-#include "core/plan/internal/grid_method_rows.h"
+#include "core/project/grid_methods/chosen_weight.h"
+#include "core/project/grid_methods/grid_method_row.h"
 #include "core/project/setting_tables.h"
 
 #include <fmt/format.h>
@@ -11,18 +11,16 @@
 #include <algorithm>
 #include <utility>
 
-namespace millwright::plan {
+namespace millwright::project {
 
 namespace {
 
 /// Of the elliptic grid, or of the harmonic map.
-grid::EllipticAdaptationSettings adaptation_settings(project::GridMethod method,
-                                                     const project::GridInput& input,
-                                                     const geometry::ParametricSurface& patch) {
-    grid::EllipticAdaptationSettings settings = method == project::GridMethod::harmonic
-                                                    ? grid::harmonic_settings()
-                                                    : grid::EllipticAdaptationSettings{};
-    if (method == project::GridMethod::elliptic) {
+grid::EllipticAdaptationSettings
+adaptation_settings(GridMethod method, const GridInput& input, const geometry::ParametricSurface& patch) {
+    grid::EllipticAdaptationSettings settings =
+        method == GridMethod::harmonic ? grid::harmonic_settings() : grid::EllipticAdaptationSettings{};
+    if (method == GridMethod::elliptic) {
         settings.method = input.elliptic.solver;
         settings.functional = {.adaptation = input.elliptic.adaptation,
                                .orthogonality = input.elliptic.orthogonality};
@@ -39,12 +37,12 @@ grid::EllipticAdaptationSettings adaptation_settings(project::GridMethod method,
     return settings;
 }
 
-std::unique_ptr<grid::GridOptimiser> make_adaptation(project::GridMethod method,
-                                                     const project::GridInput& input,
+std::unique_ptr<grid::GridOptimiser> make_adaptation(GridMethod method,
+                                                     const GridInput& input,
                                                      const toolpath::KinematicError& error,
                                                      const grid::Grid& start) {
     const grid::EllipticAdaptationSettings settings = adaptation_settings(method, input, error.patch());
-    if (input.elliptic.weight == project::WeightSource::error) {
+    if (input.elliptic.weight == WeightSource::error) {
         return std::make_unique<grid::EllipticAdaptation>(error, start, settings);
     }
     if (!needs_error(input.elliptic)) {
@@ -58,14 +56,14 @@ std::unique_ptr<grid::GridOptimiser> make_adaptation(project::GridMethod method,
 }
 
 /// Throws Error for a solver that needs more nodes than the grid has.
-void expect_enough_nodes(const project::GridInput& input) {
+void expect_enough_nodes(const GridInput& input) {
     const grid::EllipticMethod solver = input.elliptic.solver;
     const bool has_stencil =
         solver == grid::EllipticMethod::reference || solver == grid::EllipticMethod::multigrid;
     constexpr int fewest = 3;
     if (has_stencil && std::min(input.nu, input.nv) < fewest) {
         throw Error(fmt::format("the solver \"{}\" needs at least {} x {} nodes, but the grid has {} x {}",
-                                project::row_of(project::elliptic_solvers(), solver).label,
+                                row_of(elliptic_solvers(), solver).label,
                                 fewest,
                                 fewest,
                                 input.nu,
@@ -77,7 +75,7 @@ void expect_enough_nodes(const project::GridInput& input) {
 
 /// Throws Error where nodes are to slide along sides that `start` does not
 /// have.
-void expect_straight_sides(const project::GridInput& input, const grid::Grid& start) {
+void expect_straight_sides(const GridInput& input, const grid::Grid& start) {
     if (!input.elliptic.sliding_boundary) {
         return;
     }
@@ -99,7 +97,7 @@ void expect_straight_sides(const project::GridInput& input, const grid::Grid& st
 }
 
 /// For the harmonic map, which has no LV, no LO and its own solver.
-bool same_metric(project::EllipticInput a, const project::EllipticInput& b) {
+bool same_metric(EllipticInput a, const EllipticInput& b) {
     a.solver = b.solver;
     a.adaptation = b.adaptation;
     a.orthogonality = b.orthogonality;
@@ -109,44 +107,50 @@ bool same_metric(project::EllipticInput a, const project::EllipticInput& b) {
 std::unique_ptr<grid::GridOptimiser> elliptic_grid(GridStart from) {
     expect_enough_nodes(from.input);
     expect_straight_sides(from.input, from.start);
-    return make_adaptation(project::GridMethod::elliptic, from.input, from.error, from.start);
+    return make_adaptation(GridMethod::elliptic, from.input, from.error, from.start);
 }
 
 std::unique_ptr<grid::GridOptimiser> harmonic_map(GridStart from) {
     expect_straight_sides(from.input, from.start);
-    return make_adaptation(project::GridMethod::harmonic, from.input, from.error, from.start);
+    return make_adaptation(GridMethod::harmonic, from.input, from.error, from.start);
 }
 
 } // namespace
 
-const GridMethodRow elliptic_row{
-    .method = project::GridMethod::elliptic,
+constinit const GridMethodRow elliptic_row{
+    .id = "elliptic",
+    .label = "Elliptic",
+    .tip = "Brackbill-Saltzman elliptic grid, weighted by the error",
     .report_key = "adapted",
     .short_name = "Elliptic",
+    .caption = "adapted",
     .title = "Adapting the elliptic grid",
     .share = 0.4,
-    .same_settings = [](const project::GridInput& a,
-                        const project::GridInput& b) { return a.elliptic == b.elliptic; },
+    .compared = true,
+    .uses_weight = true,
+    .same_settings = [](const GridInput& a, const GridInput& b) { return a.elliptic == b.elliptic; },
     .memory =
-        [](const project::GridInput& input) {
-            return grid::memory_bytes(input.elliptic.solver, input.nu, input.nv);
-        },
+        [](const GridInput& input) { return grid::memory_bytes(input.elliptic.solver, input.nu, input.nv); },
     .grid_name = "elliptic grid",
     .optimiser = elliptic_grid};
 
-const GridMethodRow harmonic_row{
-    .method = project::GridMethod::harmonic,
+constinit const GridMethodRow harmonic_row{
+    .id = "harmonic",
+    .label = "Harmonic map",
+    .tip = "Uses the weight as a metric along the tracks; the tracks move together less than their nodes do",
     .report_key = "harmonic",
     .short_name = "Harmonic",
+    .caption = "harmonic map",
     .title = "Computing the harmonic map",
     .share = 0.4,
-    .same_settings = [](const project::GridInput& a,
-                        const project::GridInput& b) { return same_metric(a.elliptic, b.elliptic); },
+    .uses_weight = true,
+    .same_settings = [](const GridInput& a,
+                        const GridInput& b) { return same_metric(a.elliptic, b.elliptic); },
     .memory =
-        [](const project::GridInput& input) {
+        [](const GridInput& input) {
             return grid::memory_bytes(grid::EllipticMethod::harmonic, input.nu, input.nv);
         },
     .grid_name = "harmonic map",
     .optimiser = harmonic_map};
 
-} // namespace millwright::plan
+} // namespace millwright::project

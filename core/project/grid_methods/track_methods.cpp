@@ -1,20 +1,20 @@
 // The track optimiser, and the whole chain that begins with it.
 #include "core/grid/chain_optimiser.h"
 #include "core/grid/track_optimiser.h"
-#include "core/plan/internal/grid_method_rows.h"
+#include "core/project/grid_methods/grid_method_row.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace millwright::plan {
+namespace millwright::project {
 
 namespace {
 
-int nodes_per_track(const project::GridInput& input) {
+int nodes_per_track(const GridInput& input) {
     return input.direction == grid::TrackDirection::along_v ? input.nv : input.nu;
 }
 
-grid::TrackSettings track_settings(const project::GridInput& input, Effort effort) {
+grid::TrackSettings track_settings(const GridInput& input, Effort effort) {
     grid::TrackSettings settings =
         effort == Effort::live ? grid::quick_track_settings() : grid::TrackSettings{};
     settings.error_exponent = input.tracks.error_exponent;
@@ -29,7 +29,7 @@ grid::TrackSettings track_settings(const project::GridInput& input, Effort effor
     return settings;
 }
 
-grid::ChainSettings chain_settings(const project::GridInput& input) {
+grid::ChainSettings chain_settings(const GridInput& input) {
     grid::ChainSettings settings;
     settings.tracks.error_exponent = input.tracks.error_exponent;
     settings.tracks.axis_weight_mm_per_deg = input.tracks.axis_weight;
@@ -56,25 +56,31 @@ std::unique_ptr<grid::GridOptimiser> chain_optimiser(GridStart from) {
 
 } // namespace
 
-const GridMethodRow tracks_row{
-    .method = project::GridMethod::tracks,
+constinit const GridMethodRow tracks_row{
+    .id = "tracks",
+    .label = "Track optimiser",
+    .tip = "Places the nodes of each track so that its error is smallest",
     .report_key = "optimised",
     .short_name = "Tracks",
+    .caption = "optimised",
     .title = "Optimising the tracks",
     .share = 0.4,
+    .compared = true,
     .follows_drag = true,
-    .same_settings = [](const project::GridInput& a,
-                        const project::GridInput& b) { return a.tracks == b.tracks; },
+    .same_settings = [](const GridInput& a, const GridInput& b) { return a.tracks == b.tracks; },
     .optimiser = track_optimiser};
 
-const GridMethodRow chain_row{
-    .method = project::GridMethod::chain,
+constinit const GridMethodRow chain_row{
+    .id = "chain",
+    .label = "Whole chain",
+    .tip = "Chooses tracks, places their nodes, then moves all nodes at once; slow",
     .report_key = "chain",
     .short_name = "Chain",
+    .caption = "whole chain",
     .title = "Moving all nodes at once",
     .share = 3.0,
-    .same_settings = [](const project::GridInput& a,
-                        const project::GridInput& b) { return a.tracks == b.tracks && a.chain == b.chain; },
+    .same_settings = [](const GridInput& a,
+                        const GridInput& b) { return a.tracks == b.tracks && a.chain == b.chain; },
     .optimiser = chain_optimiser};
 
-} // namespace millwright::plan
+} // namespace millwright::project

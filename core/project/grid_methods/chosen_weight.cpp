@@ -1,17 +1,18 @@
+#include "core/project/grid_methods/chosen_weight.h"
+
 #include "core/base/error.h"
 #include "core/grid/expression_weight.h"
-#include "core/plan/grids.h"
 
 #include <utility>
 
-namespace millwright::plan {
+namespace millwright::project {
 
 namespace {
 
 using PatchPtr = std::shared_ptr<const geometry::ParametricSurface>;
 
 grid::WeightPtr
-weight_of_formula(const project::GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
+weight_of_formula(const GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
     try {
         return grid::expression_weight(input.elliptic.expression, input.nu, input.nv, {patch, error});
     } catch (const Error& fault) {
@@ -23,8 +24,7 @@ weight_of_formula(const project::GridInput& input, const PatchPtr& patch, const 
     }
 }
 
-grid::WeightPtr
-mixed_weight_of(const project::GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
+grid::WeightPtr mixed_weight_of(const GridInput& input, const PatchPtr& patch, const grid::WeightPtr& error) {
     const grid::MixSettings& mix = input.elliptic.mix;
     grid::MixedReasons reasons;
     reasons.error = error;
@@ -44,25 +44,25 @@ mixed_weight_of(const project::GridInput& input, const PatchPtr& patch, const gr
 
 } // namespace
 
-bool needs_error(const project::EllipticInput& input) {
+bool needs_error(const EllipticInput& input) {
     const auto formula_needs_it = [&] { return grid::speaks_of_error(input.expression); };
     switch (input.weight) {
-    case project::WeightSource::error:
+    case WeightSource::error:
         return true;
-    case project::WeightSource::expression:
+    case WeightSource::expression:
         return formula_needs_it();
-    case project::WeightSource::mixed:
+    case WeightSource::mixed:
         return input.mix.error > 0.0 || (input.mix.expression > 0.0 && formula_needs_it());
-    case project::WeightSource::w1:
-    case project::WeightSource::w2:
-    case project::WeightSource::w3:
-    case project::WeightSource::w4:
+    case WeightSource::w1:
+    case WeightSource::w2:
+    case WeightSource::w3:
+    case WeightSource::w4:
         break;
     }
     return false;
 }
 
-grid::WeightPtr chosen_weight(const project::GridInput& input,
+grid::WeightPtr chosen_weight(const GridInput& input,
                               const geometry::ParametricSurface& patch,
                               const grid::WeightPtr& error) {
     if (needs_error(input.elliptic) && error == nullptr) {
@@ -70,51 +70,51 @@ grid::WeightPtr chosen_weight(const project::GridInput& input,
     }
     const auto shared = [&] { return patch.shared(); };
     switch (input.elliptic.weight) {
-    case project::WeightSource::error:
+    case WeightSource::error:
         return error;
-    case project::WeightSource::expression:
+    case WeightSource::expression:
         return weight_of_formula(input, shared(), error);
-    case project::WeightSource::mixed:
+    case WeightSource::mixed:
         return mixed_weight_of(input, shared(), error);
-    case project::WeightSource::w1:
+    case WeightSource::w1:
         return grid::weight_w1();
-    case project::WeightSource::w2:
+    case WeightSource::w2:
         return grid::weight_w2(input.nu);
-    case project::WeightSource::w3:
+    case WeightSource::w3:
         return grid::weight_w3(input.nu, input.nv);
-    case project::WeightSource::w4:
+    case WeightSource::w4:
         return grid::weight_w4();
     }
     return nullptr;
 }
 
-grid::WeightPtr region_weight(const project::GridInput& input, const geometry::ParametricSurface& patch) {
+grid::WeightPtr region_weight(const GridInput& input, const geometry::ParametricSurface& patch) {
     return input.elliptic.region.everywhere()
                ? nullptr
                : grid::field_weight(grid::share_of(input.elliptic.region, patch), input.nu, input.nv);
 }
 
-bool paint_weight(project::EllipticInput& input,
+bool paint_weight(EllipticInput& input,
                   const geometry::ParametricSurface& patch,
                   const Vec2& from,
                   const Vec2& to,
                   const grid::Brush& brush) {
     if (!input.painted) {
-        input.painted = grid::Field::constant(project::fresh_painted, project::fresh_painted, 0.0);
+        input.painted = grid::Field::constant(fresh_painted, fresh_painted, 0.0);
     }
     return from == to ? grid::dab(*input.painted, patch, from, brush)
                       : grid::stroke(*input.painted, patch, from, to, brush);
 }
 
-void let_paint_count(project::EllipticInput& input) {
-    if (input.weight == project::WeightSource::expression) {
+void let_paint_count(EllipticInput& input) {
+    if (input.weight == WeightSource::expression) {
         input.mix.error = 0.0;
         input.mix.expression = std::max(input.mix.expression, 1.0);
     }
-    input.weight = project::WeightSource::mixed;
+    input.weight = WeightSource::mixed;
     if (!(input.mix.painted > 0.0)) {
         input.mix.painted = 1.0;
     }
 }
 
-} // namespace millwright::plan
+} // namespace millwright::project
