@@ -197,14 +197,19 @@ void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQu
         }
         return;
     }
+    const auto setup = now.plan ? now.plan->plan.cutting_setup : nullptr;
+    if (now.project.surface.joined && !setup) { // they are not joined yet
+        return;
+    }
     const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     const grid::Brush brush{
         .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
     ask.edit(
         tool.erases ? "Erase the weight" : "Paint the weight",
-        [painted, brush](Project& p) {
-            plan::paint_weight(
-                p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
+        [painted, brush, setup](Project& p) {
+            const region::Region region =
+                p.surface.joined ? setup->patch : project::machined_region(p.surface);
+            plan::paint_weight(p.grid.elliptic, region, painted.from, painted.to, brush);
             plan::let_paint_count(p.grid.elliptic);
         },
         "paint the weight");
