@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>
@@ -79,7 +80,11 @@ TEST(JoinedInput, IsRefusedAtItsPlace) {
     Project one = with_joined();
     one.surface.joined->faces.resize(1);
     EXPECT_THAT(faults_of(one), ElementsAre(HasSubstr("surface/joined/faces: 2 to 200 faces")));
-    EXPECT_THAT(fault_reading(project_text(one)), HasSubstr("2 to 200 faces can be joined, not 1"));
+    nlohmann::json json = nlohmann::json::parse(text);
+    json["surface"]["joined"]["faces"].erase(1);
+    json["surface"]["joined"]["faces"].erase(1);
+    json["surface"]["joined"]["faces"].erase(1);
+    EXPECT_THAT(fault_reading(json.dump()), HasSubstr("2 to 200 faces can be joined, not 1"));
 }
 
 TEST(JoinedInput, ItsFaultsNameTheFace) {
