@@ -126,15 +126,6 @@ void draw_face(Ui& ui, const project::FaceInput& face) {
     ui.note("A face of a CAD model without a fit. To change control points, import it as patches.");
 }
 
-std::string face_numbers(const project::JoinedInput& joined) {
-    constexpr std::size_t most = 8; // a line
-    std::string text;
-    for (std::size_t n = 0; n < std::min(joined.faces.size(), most); ++n) {
-        text += (n == 0 ? "" : ", ") + std::to_string(joined.faces[n].number);
-    }
-    return joined.faces.size() > most ? text + ", ..." : text;
-}
-
 /// Of faces that are machined as one surface, and how they were spread out.
 void draw_joined(Ui& ui, const project::JoinedInput& joined, const FrameState& now) {
     const auto section = ui.section("joined", "Joined faces");
@@ -142,14 +133,7 @@ void draw_joined(Ui& ui, const project::JoinedInput& joined, const FrameState& n
         return;
     }
     ui.value("count", "Faces", std::to_string(joined.faces.size()));
-    ui.value(
-        "numbers", "Numbers", face_numbers(joined), "", "Face numbers in the file they were imported from");
     if (const auto made = now.plan ? now.plan->plan.joined : nullptr) {
-        ui.value("flattening",
-                 "Flattening",
-                 std::string(region::name_of(made->flattening.method)),
-                 "",
-                 "How the faces were mapped to the square of u and v");
         ui.value("distortion",
                  "Distortion",
                  fixed(made->flattening.distortion, 3),
