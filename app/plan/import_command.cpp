@@ -10,6 +10,7 @@
 #include "core/exchange/point_rows.h"
 #include "core/project/imported_surface.h"
 #include "core/project/project_file.h"
+#include "core/region/flattening.h"
 
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -39,6 +40,7 @@ struct ImportOptions {
     std::string along;                 ///< empty: found
     std::optional<double> mm_per_unit; ///< of a mesh
     int face = 0;
+    std::vector<int> faces; ///< that are joined
     bool exact = false;
     bool cloud = false;
     bool json = false;
@@ -76,6 +78,7 @@ std::string fault_of_degrees(const std::string& text) {
 project::ImportChoice choice_of(const ImportOptions& options) {
     project::ImportChoice choice{.face = options.face,
                                  .mm_per_unit = options.mm_per_unit.value_or(1.0),
+                                 .joined = options.faces,
                                  .exact = options.exact,
                                  .cloud = options.cloud};
     if (!options.degrees.empty()) {
@@ -258,6 +261,16 @@ ordered_json imported_json(const project::ImportedSurface& imported) {
                         {"spans", {u, v}},
                         {"trimmed", !face->trim.everything()}};
     }
+    if (const auto& joined = imported.joined) {
+        ordered_json numbers = ordered_json::array();
+        for (const project::JoinedFace& face : imported.surface.joined->faces) {
+            numbers.push_back(face.number);
+        }
+        json["joined"] = {{"faces", std::move(numbers)},
+                          {"flattening", std::string(region::name_of(joined->flattening.method))},
+                          {"distortion", joined->flattening.distortion},
+                          {"boundary_off_mm", joined->boundary_off}};
+    }
     if (const auto& points = imported.points) {
         json["points"] = {{"count", points->points.size()},
                           {"rows", points->rows},
@@ -323,6 +336,16 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
                    fixed(fit->deviation.patch_max, 4),
                    fixed(fit->deviation.patch_mean, 4));
     }
+    if (const auto& joined = imported.joined) {
+        fmt::print("{} exact faces joined: {}, distortion {}, {} mm from their boundary at most\n{}: {}\n",
+                   imported.surface.joined->faces.size(),
+                   region::name_of(joined->flattening.method),
+                   fixed(joined->flattening.distortion, 3),
+                   fixed(joined->boundary_off, 4),
+                   options.out,
+                   counted(imported.surface.joined->faces.size(), "face"));
+        return;
+    }
     if (const auto& face = imported.surface.face) {
         const auto [u, v] = geometry::BsplineSurface(face->net).spans();
         fmt::print("exact face of degree {} x {}, {} x {} spans\n{}: 1 face\n",
@@ -337,6 +360,18 @@ void print_imported(const project::ImportedSurface& imported, const ImportOption
                options.out,
                imported.surface.patches.size(),
                imported.surface.patches.size() == 1 ? "patch" : "patches");
+}
+
+void refuse_faces(const ImportOptions& options) {
+    if (options.faces.empty()) {
+        return;
+    }
+    if (options.face != 0) {
+        throw UsageError("--face and --faces exclude each other", options.file, "leave one of them out");
+    }
+    if (!options.exact) {
+        throw UsageError("--faces joins exact faces", options.file, "add --exact");
+    }
 }
 
 int import_file(const ImportOptions& options) {
@@ -357,6 +392,7 @@ int import_file(const ImportOptions& options) {
     if (options.exact && !options.degrees.empty()) {
         throw UsageError("--exact and --degree exclude each other", options.file, "leave one of them out");
     }
+    refuse_faces(options);
     if (options.out.empty()) {
         return tell_of(options);
     }
@@ -394,6 +430,15 @@ void add_import_command(CLI::App& app, Command& chosen) {
              ->type_name("PROJECT");
     command.add_option("--face", options->face, "Face number, for a STEP or IGES file with several faces")
         ->check(CLI::Range(1, exchange::most_cad_faces));
+    command
+        .add_option(
+            "--faces",
+            options->faces,
+            "Numbers of faces that continue one another, separated by commas: machined as one surface")
+        ->delimiter(',')
+        ->check(CLI::Range(1, exchange::most_cad_faces))
+        ->type_name("N,N,...")
+        ->needs(&out);
     command
         .add_option("--degree",
                     options->degrees,

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 
+#include <iterator>
 #include <utility>
 
 namespace millwright::geometry {
@@ -12,34 +13,45 @@ Surface::Surface(std::vector<BezierPatch> patches) : patches_(std::move(patches)
     }
 }
 
-Surface::Surface(BsplineSurface face) : face_(std::move(face)) {}
+Surface::Surface(BsplineSurface face) {
+    faces_.push_back(std::move(face));
+}
+
+Surface::Surface(std::vector<BsplineSurface> faces) : faces_(std::move(faces)) {
+    if (faces_.empty()) {
+        throw Error("a surface needs at least one face");
+    }
+}
 
 std::vector<const ParametricSurface*> Surface::parts() const {
     std::vector<const ParametricSurface*> parts;
     for (const BezierPatch& patch : patches_) {
         parts.push_back(&patch);
     }
-    if (face_) {
-        parts.push_back(&*face_);
+    for (const BsplineSurface& face : faces_) {
+        parts.push_back(&face);
     }
     return parts;
 }
 
 const ParametricSurface& Surface::part(PatchId id) const {
-    if (face_) {
-        expects(static_cast<int>(id) == 0, "a face is part 0 of its surface");
-        return *face_;
+    if (!faces_.empty()) {
+        const int n = static_cast<int>(id);
+        expects(n >= 0 && n < std::ssize(faces_), "a face is a part of its surface");
+        return faces_[static_cast<std::size_t>(n)];
     }
     return patch(id);
 }
 
 Surface Surface::in_patches() const {
-    if (!face_) {
+    if (faces_.empty()) {
         return *this;
     }
     std::vector<BezierPatch> patches;
-    for (SurfacePiece& piece : face_->pieces()) {
-        patches.push_back(std::move(piece.patch));
+    for (const BsplineSurface& face : faces_) {
+        for (SurfacePiece& piece : face.pieces()) {
+            patches.push_back(std::move(piece.patch));
+        }
     }
     return Surface(std::move(patches));
 }

@@ -70,6 +70,9 @@ std::string left_text(const project::Project& project, const Plan& plan) {
 
 std::string checked_face_text(const project::Project& project) {
     const std::size_t patches = project.surface.patches.size();
+    if (const auto& joined = project.surface.joined) {
+        return fmt::format("only these {} faces were checked", joined->faces.size());
+    }
     const std::string face = patches > 1
                                  ? fmt::format("patch {} of {}", project.surface.machined_patch + 1, patches)
                                  : std::string("this face");

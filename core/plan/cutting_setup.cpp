@@ -66,7 +66,10 @@ void refuse_faults(const project::Project& project) {
 }
 
 CuttingSetup cutting_setup_of(const project::Project& project, const Folders& folders) {
-    region::Region patch = project::machined_region(project.surface);
+    return cutting_setup_of(project, folders, project::machined_region(project.surface));
+}
+
+CuttingSetup cutting_setup_of(const project::Project& project, const Folders& folders, region::Region patch) {
     refuse_crossing(patch, project.surface.machined_trim());
     kinematics::MachineModel machine =
         kinematics::read_machine(project::machine_path(project, folders.project, folders.assets));

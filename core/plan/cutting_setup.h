@@ -19,8 +19,11 @@ struct Folders {
 /// Throws Error with the first of faults_of(project) if there are any.
 void refuse_faults(const project::Project& project);
 
-/// Throws Error if the machine is unknown or its file wrong.
+/// Throws Error if the machine is unknown or its file wrong, or joined faces cannot be joined.
 [[nodiscard]] CuttingSetup cutting_setup_of(const project::Project& project, const Folders& folders);
+/// The same with the project's region at hand.
+[[nodiscard]] CuttingSetup
+cutting_setup_of(const project::Project& project, const Folders& folders, region::Region patch);
 
 /// How the axis positions of its paths are chosen; what does not matter for the goal is left out, so that
 /// equal settings give equal paths.

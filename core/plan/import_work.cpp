@@ -97,7 +97,7 @@ private:
 };
 
 bool is_chosen(const project::ImportSource& source, const project::ImportChoice& choice) {
-    return source.mesh || source.points || choice.face > 0 ||
+    return source.mesh || source.points || choice.face > 0 || !choice.joined.empty() ||
            (source.model && source.model->faces.size() == 1);
 }
 

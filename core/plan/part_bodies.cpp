@@ -16,7 +16,7 @@ std::vector<simulation::CollisionBody> face_bodies(const kinematics::MachineMode
     simulation::CollisionTriangles others;
     const auto parts = surface.parts();
     for (std::size_t n = 0; n < parts.size(); ++n) {
-        const bool machined = input.face || static_cast<int>(n) == input.machined_patch;
+        const bool machined = !input.has_patches() || static_cast<int>(n) == input.machined_patch;
         const geometry::Trim trim = machined ? input.machined_trim() : input.trim(static_cast<int>(n));
         const geometry::Mesh mesh = trim.everything()
                                         ? geometry::tessellate(*parts[n], steps, steps)

@@ -5,6 +5,7 @@
 #include "core/plan/internal/derivation.h"
 #include "core/plan/internal/failure.h"
 #include "core/plan/internal/stages.h"
+#include "core/project/surface.h"
 
 #include <utility>
 
@@ -130,8 +131,11 @@ private:
         bool more = false;
         const auto failure = failure_of([&] {
             if (!session.optimiser) {
+                const project::Project& project = session.source.project;
                 session.error = std::make_unique<const toolpath::KinematicError>(
-                    cutting_setup_of(session.source.project, session.source.folders).error_model());
+                    cutting_setup_of(
+                        project, session.source.folders, project::machined_region(project.surface, progress))
+                        .error_model());
                 session.optimiser =
                     make_optimiser(session.method, session.source.project.grid, *session.error);
             }

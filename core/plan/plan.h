@@ -13,6 +13,7 @@
 #include "core/program/listing.h"
 #include "core/program/post.h"
 #include "core/project/project.h"
+#include "core/region/joined_region.h"
 #include "core/toolpath/singular_points.h"
 
 #include <array>
@@ -37,6 +38,8 @@ struct GridResult {
 struct Plan {
     std::shared_ptr<const geometry::Surface> surface;
     std::shared_ptr<const std::vector<geometry::Trim>> trims; ///< of the surface, one per patch; null: whole
+    /// The faces that are machined as one surface; null where there are none.
+    std::shared_ptr<const region::JoinedRegion> joined;
     std::shared_ptr<const CuttingSetup> cutting_setup;
     std::vector<toolpath::SingularPoint> singular_points;
     std::array<GridResult, project::every_grid_method.size()> grids; ///< by GridMethod

@@ -20,9 +20,9 @@ constexpr int most_cells = 24;          // of a patch each way
 /// How many triangles the patches that are still to come may have.
 class Allowance {
 public:
-    Allowance(const exchange::CadModel& model, int chosen) {
+    Allowance(const exchange::CadModel& model, const std::vector<int>& chosen) {
         for (const CadFace& face : model.faces) {
-            patches_ += face.number == chosen ? 0 : std::ssize(face.patches);
+            patches_ += std::ranges::count(chosen, face.number) > 0 ? 0 : std::ssize(face.patches);
         }
         const double each = 0.5 * static_cast<double>(of_a_patch());
         cells_ = std::clamp(static_cast<int>(std::sqrt(each)), 1, most_cells);
@@ -117,13 +117,13 @@ void add_face(TriangleMesh& mesh, const CadFace& face, Allowance& allowance) {
 
 void add_faces_but(ReferenceMesh& reference,
                    const exchange::CadModel& model,
-                   int chosen,
+                   const std::vector<int>& chosen,
                    const Progress& progress) {
     TriangleMesh& mesh = reference.rest;
     Allowance allowance(model, chosen);
     for (const CadFace& face : model.faces) {
         progress.check();
-        if (face.number != chosen) {
+        if (std::ranges::count(chosen, face.number) == 0) {
             add_face(mesh, face, allowance);
             reference.faces.resize(mesh.triangles.size(), face.number);
         }
@@ -156,10 +156,11 @@ ReferenceMesh reference_mesh(const project::ImportSource& source,
         reference.rest = scaled(source.mesh->mesh, choice.mm_per_unit);
     }
     if (source.model) {
-        const bool one_alone = choice.face == 0 && source.model->faces.size() == 1;
-        const int chosen = one_alone ? source.model->faces.front().number : choice.face;
         reference.rest = {};
-        add_faces_but(reference, *source.model, imported != nullptr ? chosen : 0, progress);
+        add_faces_but(reference,
+                      *source.model,
+                      imported != nullptr ? chosen_faces(*source.model, choice) : std::vector<int>{},
+                      progress);
     }
     return reference;
 }

@@ -159,11 +159,19 @@ Json surface_json(const project::Project& project, const Plan& plan) {
     json["preset"] = surface.preset;
     json["patches"] = plan.surface->patch_count();
     json["machined_patch"] = surface.machined_patch;
-    if (surface.face) {
+    if (plan.joined) {
+        json["faces"] = Json::array();
+        for (const project::JoinedFace& face : surface.joined->faces) {
+            json["faces"].push_back(face.number);
+        }
+        json["flattening"] = std::string(region::name_of(plan.joined->flattening.method));
+        json["distortion"] = plan.joined->flattening.distortion;
+        json["boundary_off_mm"] = plan.joined->boundary_off;
+    } else if (surface.face) {
         const geometry::BsplineNet& net = surface.face->net;
         json["degree"] = Json::array({net.degree_u, net.degree_v});
         json["control_points"] = Json::array({net.rows, net.columns});
-        json["rational"] = plan.surface->face()->rational();
+        json["rational"] = plan.surface->faces().front().rational();
     } else {
         const geometry::PatchId machined{surface.machined_patch};
         const geometry::BezierPatch& bezier = plan.surface->patch(machined);

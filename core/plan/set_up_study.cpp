@@ -71,8 +71,14 @@ project::Project with_set_up(project::Project project, const toolpath::SetUpPlac
     for (geometry::ControlNet& net : project.surface.patches) {
         net = geometry::turned(std::move(net), place[3]);
     }
-    if (auto& face = project.surface.face) {
+    for (project::FaceInput* face : project.surface.exact_faces()) {
         face->net = geometry::turned(std::move(face->net), place[3]);
+    }
+    if (auto& joined = project.surface.joined; joined && joined->corners) {
+        const Mat3 rotation = Eigen::AngleAxisd(place[3], Vec3::UnitZ()).toRotationMatrix();
+        for (Vec3& corner : *joined->corners) {
+            corner = rotation * corner;
+        }
     }
     return project;
 }

@@ -3,6 +3,7 @@
 #include "core/base/published.h"
 #include "core/plan/internal/background.h"
 #include "core/plan/internal/failure.h"
+#include "core/project/surface.h"
 
 #include <utility>
 
@@ -20,7 +21,8 @@ public:
             found.settings = settings;
             found.failure = failure_of([&] {
                 progress.report(0.0, "Searching for the best part position");
-                const CuttingSetup cutting_setup = cutting_setup_of(project, folders);
+                const CuttingSetup cutting_setup =
+                    cutting_setup_of(project, folders, project::machined_region(project.surface, progress));
                 found.now = set_up_cost(cutting_setup, settings).start();
                 found.study = set_up_study(cutting_setup, settings, progress);
             });

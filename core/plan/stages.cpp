@@ -27,6 +27,7 @@ bool same_cutter(project::ToolInput a, const project::ToolInput& b) {
     return a == b;
 }
 
+constexpr StageKey the_region{StageKind::region};
 constexpr StageKey the_cutting_setup{StageKind::cutting_setup};
 constexpr StageKey the_program{StageKind::program};
 
@@ -39,7 +40,8 @@ Stage surface_stage() {
             .same =
                 [](const Source& then, const Source& now) {
                     return then.project.surface.patches == now.project.surface.patches &&
-                           then.project.surface.face == now.project.surface.face;
+                           then.project.surface.face == now.project.surface.face &&
+                           then.project.surface.joined == now.project.surface.joined;
                 },
             .make =
                 [](const StageWork& work) {
@@ -68,9 +70,32 @@ Stage trims_stage() {
             .qualities = {Quality::carried, Quality::exact}};
 }
 
+/// Of several faces, which takes about a second. A patch or a face is its own region.
+Stage region_stage(const project::Project& project) {
+    const bool joins = project.surface.joined.has_value();
+    return {
+        .key = the_region,
+        .title = joins ? "Joining the faces" : "",
+        .share = joins ? 0.1 : 0.0,
+        .same = [](const Source& then,
+                   const Source& now) { return then.project.surface.joined == now.project.surface.joined; },
+        .make =
+            [](const StageWork& work) {
+                if (const auto& joined = work.project().surface.joined) {
+                    refuse_faults(work.project());
+                    work.plan.joined = std::make_shared<const region::JoinedRegion>(
+                        project::joined_region(*joined, work.progress));
+                }
+                return true;
+            },
+        .clear = [](Plan& plan) { plan.joined = nullptr; },
+        .qualities = {Quality::carried, Quality::exact}};
+}
+
 /// Nothing holds, and nothing is made, of a project with faults but its surface.
 Stage cutting_setup_stage() {
     return {.key = the_cutting_setup,
+            .reads = {the_region},
             .same =
                 [](const Source& then, const Source& now) {
                     return same_cutting_setup(then, now) && project::faults_of(now.project).empty();
@@ -78,8 +103,12 @@ Stage cutting_setup_stage() {
             .make =
                 [](const StageWork& work) {
                     refuse_faults(work.project());
-                    work.plan.cutting_setup = std::make_shared<const CuttingSetup>(
-                        cutting_setup_of(work.project(), work.source.folders));
+                    const project::Project& project = work.project();
+                    work.plan.cutting_setup = std::make_shared<const CuttingSetup>(cutting_setup_of(
+                        project,
+                        work.source.folders,
+                        work.plan.joined ? work.plan.joined->region
+                                         : project::machined_region(project.surface, work.progress)));
                     return true;
                 },
             .clear = [](Plan& plan) { plan.cutting_setup = nullptr; },
@@ -302,6 +331,7 @@ std::vector<Stage> stages_of(const project::Project& project, const Scope& scope
     const GridMethod of_program = program_grid(project);
     std::vector<Stage> stages{surface_stage(),
                               trims_stage(),
+                              region_stage(project),
                               cutting_setup_stage(),
                               singular_points_stage(),
                               grid_stage(GridMethod::uniform, project, scope)};

@@ -5,8 +5,10 @@
 #include "core/exchange/grid_surface.h"
 #include "core/exchange/point_rows.h"
 #include "core/project/internal/imported_points.h"
+#include "core/project/internal/joined_faults.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/setting_tables.h"
+#include "core/project/surface.h"
 
 #include <fmt/format.h>
 
@@ -165,6 +167,88 @@ ImportedSurface exact_face(const CadFace& face) {
     return imported;
 }
 
+const CadFace& chosen_face(const exchange::CadModel& model, const std::filesystem::path& file, int number) {
+    if (number == 0 && model.faces.size() == 1) {
+        return model.faces.front();
+    }
+    if (number == 0) {
+        throw Error("the file has " + counted(model.faces.size(), "face"), file, "select one by its number");
+    }
+    const auto found = std::ranges::find(model.faces, number, &CadFace::number);
+    if (found == model.faces.end()) {
+        throw Error(fmt::format("the file has no usable face {}", number), file);
+    }
+    return *found;
+}
+
+/// A patch as a surface of one span.
+geometry::BsplineNet in_one_span(const geometry::ControlNet& patch) {
+    const auto knots = [](int degree) {
+        std::vector<double> ends(2 * static_cast<std::size_t>(degree + 1), 1.0);
+        std::fill_n(ends.begin(), degree + 1, 0.0);
+        return ends;
+    };
+    geometry::BsplineNet net;
+    net.degree_u = patch.rows - 1;
+    net.degree_v = patch.columns - 1;
+    net.knots_u = knots(net.degree_u);
+    net.knots_v = knots(net.degree_v);
+    net.rows = patch.rows;
+    net.columns = patch.columns;
+    net.points = patch.points;
+    net.weights = patch.weights;
+    return net;
+}
+
+/// The faces of those numbers, before they are joined. Throws Error for a trimmed one.
+JoinedInput
+faces_to_join(const CadModel& model, const std::filesystem::path& file, const std::vector<int>& numbers) {
+    JoinedInput joined;
+    for (const int number : numbers) {
+        const CadFace& face = chosen_face(model, file, number);
+        if (face.trimmed()) {
+            throw Error(fmt::format("face {}: {}", number, no_joined_trim),
+                        file,
+                        "choose faces that have all of their four sides");
+        }
+        const bool broken = face.patches.size() > 1 && !face.bspline;
+        if (broken) {
+            throw Error(fmt::format("face {} cannot be taken as one exact surface: its surface breaks at a "
+                                    "knot, or its weights differ too much",
+                                    number),
+                        file,
+                        "choose other faces");
+        }
+        joined.faces.push_back(
+            {number, {face.bspline ? *face.bspline : in_one_span(face.patches.front().net()), {}}});
+    }
+    if (std::string fault = fault_of_count(joined.faces.size()); !fault.empty()) {
+        throw Error(fault, file);
+    }
+    return joined;
+}
+
+/// They are joined once to see whether they can be: a project of faces that cannot has no plan.
+ImportedSurface joined_faces(const CadModel& model,
+                             const std::filesystem::path& file,
+                             const std::vector<int>& numbers,
+                             const Progress& progress) {
+    ImportedSurface imported;
+    if (numbers.size() == 1) {
+        return import_face(
+            chosen_face(model, file, numbers.front()), {.face = numbers.front(), .exact = true}, progress);
+    }
+    imported.surface.joined = faces_to_join(model, file, numbers);
+    try {
+        imported.joined =
+            std::make_shared<const region::JoinedRegion>(joined_region(*imported.surface.joined, progress));
+    } catch (const Error& fault) {
+        const Diagnostic& told = fault.diagnostic();
+        throw Error(told.message, file, told.hint);
+    }
+    return imported;
+}
+
 /// Between its corners, mm.
 double largest_hole(const CadFace& face) {
     double largest = 0.0;
@@ -180,20 +264,6 @@ double largest_hole(const CadFace& face) {
         }
     }
     return largest;
-}
-
-const CadFace& chosen_face(const exchange::CadModel& model, const std::filesystem::path& file, int number) {
-    if (number == 0 && model.faces.size() == 1) {
-        return model.faces.front();
-    }
-    if (number == 0) {
-        throw Error("the file has " + counted(model.faces.size(), "face"), file, "select one by its number");
-    }
-    const auto found = std::ranges::find(model.faces, number, &CadFace::number);
-    if (found == model.faces.end()) {
-        throw Error(fmt::format("the file has no usable face {}", number), file);
-    }
-    return *found;
 }
 
 /// Before it is fitted, which makes noise of it.
@@ -215,8 +285,8 @@ void check_imported_size(const ImportedSurface& imported,
     for (const geometry::ControlNet& net : imported.surface.patches) {
         points.insert(points.end(), net.points.begin(), net.points.end());
     }
-    if (imported.surface.face) {
-        points = imported.surface.face->net.points;
+    for (const FaceInput* face : imported.surface.exact_faces()) {
+        points.insert(points.end(), face->net.points.begin(), face->net.points.end());
     }
     if (const std::string fault = fault_of_size(size_of(points)); !fault.empty()) {
         throw Error("the surface " + fault, file, hint);
@@ -249,8 +319,8 @@ void check_reach(const ImportedSurface& imported, const std::filesystem::path& f
     for (const geometry::ControlNet& net : imported.surface.patches) {
         check(net.points);
     }
-    if (imported.surface.face) {
-        check(imported.surface.face->net.points);
+    for (const FaceInput* face : imported.surface.exact_faces()) {
+        check(face->net.points);
     }
 }
 
@@ -273,6 +343,29 @@ void check_reach(const std::string& what,
 }
 
 } // namespace
+
+std::vector<int> chosen_faces(const CadModel& model, const ImportChoice& choice) {
+    if (!choice.joined.empty()) {
+        return choice.joined;
+    }
+    const bool one_alone = choice.face == 0 && model.faces.size() == 1;
+    const int number = one_alone ? model.faces.front().number : choice.face;
+    return number > 0 ? std::vector{number} : std::vector<int>{};
+}
+
+ImportChoice with_face(ImportChoice choice, int number) {
+    if (choice.joined.empty()) {
+        choice.face = number;
+        return choice;
+    }
+    const auto found = std::ranges::find(choice.joined, number);
+    if (found == choice.joined.end()) {
+        choice.joined.push_back(number);
+    } else if (choice.joined.size() > 1) {
+        choice.joined.erase(found);
+    }
+    return choice;
+}
 
 bool is_importable(const std::filesystem::path& file) {
     return exchange::is_mesh_file(file) || exchange::is_cad_file(file) ||
@@ -345,12 +438,17 @@ ImportedSurface import_of(const ImportSource& source, const ImportChoice& choice
                                : import_points(*source.points, choice, source.file, progress);
         tell(imported, doubt_of_size(unit * size_of(points), unit));
     } else {
-        imported = import_face(chosen_face(*source.model, source.file, choice.face), choice, progress);
         const exchange::CadModel& model = *source.model;
-        if (model.faces.size() > 1) {
+        imported = choice.joined.empty()
+                       ? import_face(chosen_face(model, source.file, choice.face), choice, progress)
+                       : joined_faces(model, source.file, choice.joined, progress);
+        const std::size_t taken = std::max<std::size_t>(choice.joined.size(), 1);
+        if (model.faces.size() > taken) {
             tell(imported,
-                 fmt::format("only one of {} faces is imported: the tool is not checked against the others",
-                             model.faces.size()));
+                 fmt::format("only {} of {} faces {} imported: the tool is not checked against the others",
+                             taken == 1 ? "one" : std::to_string(taken),
+                             model.faces.size(),
+                             taken == 1 ? "is" : "are"));
         }
         imported.notes.insert(imported.notes.end(), model.notes.begin(), model.notes.end());
         imported.notes.insert(imported.notes.end(), model.left_out.begin(), model.left_out.end());

@@ -8,8 +8,10 @@
 #include "core/exchange/patch_fit.h"
 #include "core/exchange/point_file.h"
 #include "core/project/project.h"
+#include "core/region/joined_region.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,11 +40,21 @@ struct ImportChoice {
     std::optional<FitDegrees> degrees =
         {};                         ///< meshes but rasters are always fitted, others only if these are given
     std::optional<Vec3> along = {}; ///< unit, out of the part: the side of a mesh or of points that is fitted
+    /// The same numbers, of several faces as one surface, exactly, in place of `face`; one alone is an exact
+    /// face.
+    std::vector<int> joined = {};
     bool exact = false; ///< a face of a STEP or IGES file as one surface, of as many spans as it has
     bool cloud = false; ///< points are fitted as a cloud, whether they are in rows or not
 
     friend bool operator==(const ImportChoice&, const ImportChoice&) = default;
 };
+
+/// The faces of the file that are chosen; none of several without a choice.
+[[nodiscard]] std::vector<int> chosen_faces(const exchange::CadModel& model, const ImportChoice& choice);
+
+/// As a person points at a face: it is chosen in place of another one or, where faces are joined, added to
+/// them or taken out, but for the last of them.
+[[nodiscard]] ImportChoice with_face(ImportChoice choice, int number);
 
 /// How near the surface is to each of the measured points.
 struct PointFit {
@@ -56,10 +68,11 @@ struct PointFit {
 
 struct ImportedSurface {
     SurfaceInput surface;
-    std::optional<exchange::MeshFit> fit; ///< if one patch was fitted
-    std::optional<PointFit> points;       ///< of a file of points
-    std::vector<std::string> notes;       ///< what the person should know, a sentence each
-    std::vector<std::string> warnings{};  ///< the same: why it is not the surface of the file
+    std::optional<exchange::MeshFit> fit;                    ///< if one patch was fitted
+    std::optional<PointFit> points;                          ///< of a file of points
+    std::shared_ptr<const region::JoinedRegion> joined = {}; ///< if several faces were joined
+    std::vector<std::string> notes;                          ///< what the person should know, a sentence each
+    std::vector<std::string> warnings{}; ///< the same: why it is not the surface of the file
 };
 
 inline constexpr const char* importable_kinds =

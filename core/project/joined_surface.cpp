@@ -40,7 +40,7 @@ std::vector<OpenSeam> open_seams(const std::vector<geometry::BezierPatch>& patch
 }
 
 void refuse_face(const SurfaceInput& surface) {
-    if (surface.face) {
+    if (!surface.has_patches()) {
         throw Error("an exact face has no patches to join", {}, "import it without --exact");
     }
 }

@@ -2,6 +2,7 @@
 
 #include "core/base/numbers.h"
 #include "core/geometry/presets.h"
+#include "core/project/internal/joined_faults.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/internal/region_area.h"
 #include "core/project/level_settings.h"
@@ -51,19 +52,19 @@ void check_net(Faults& faults, const std::string& path, const geometry::ControlN
     }
 }
 
-void check_face_net(Faults& faults, const geometry::BsplineNet& net) {
+void check_face_net(Faults& faults, const std::string& path, const geometry::BsplineNet& net) {
     if (std::string fault = geometry::fault_of(net); !fault.empty()) {
-        faults.push_back("surface/face: " + fault);
+        faults.push_back(path + ": " + fault);
         return;
     }
     const auto inside = [](const Vec3& point) { return within(point, farthest_point_mm); };
     if (!std::all_of(net.points.begin(), net.points.end(), inside)) {
-        faults.push_back(fmt::format("surface/face: a control point is farther than {} mm from the origin",
-                                     farthest_point_mm));
+        faults.push_back(fmt::format(
+            "{}: a control point is farther than {} mm from the origin", path, farthest_point_mm));
     }
     const double size = size_of(net.points);
     if (const std::string fault = fault_of_size(size); !fault.empty()) {
-        faults.push_back(fmt::format("surface/face: the part {}; {}", fault, question_of_unit(size)));
+        faults.push_back(fmt::format("{}: the part {}; {}", path, fault, question_of_unit(size)));
     }
 }
 
@@ -113,7 +114,7 @@ void check_part_size(Faults& faults, const SurfaceInput& surface) {
 }
 
 void check_face(Faults& faults, const SurfaceInput& surface) {
-    check_face_net(faults, surface.face->net);
+    check_face_net(faults, "surface/face", surface.face->net);
     if (!can_be_trimmed(surface.face->trim)) {
         faults.push_back(outlines_wanted("surface/face"));
     }
@@ -123,7 +124,34 @@ void check_face(Faults& faults, const SurfaceInput& surface) {
     }
 }
 
+void check_joined(Faults& faults, const SurfaceInput& surface) {
+    const JoinedInput& joined = *surface.joined;
+    if (std::string fault = fault_of_count(joined.faces.size()); !fault.empty()) {
+        faults.push_back("surface/joined/faces: " + std::move(fault));
+    }
+    for (std::size_t n = 0; n < joined.faces.size(); ++n) {
+        const std::string path = fmt::format("surface/joined/faces[{}]", n);
+        check_face_net(faults, path, joined.faces[n].face.net);
+        if (!joined.faces[n].face.trim.everything()) {
+            faults.push_back(fmt::format("{}/trim: {}", path, no_joined_trim));
+        }
+    }
+    const auto near = [](const Vec3& corner) { return within(corner, farthest_point_mm); };
+    if (joined.corners && !std::ranges::all_of(*joined.corners, near)) {
+        faults.push_back(fmt::format("surface/joined/corners: a corner is farther than {} mm from the origin",
+                                     farthest_point_mm));
+    }
+    if (!surface.patches.empty() || !surface.trims.empty() || surface.machined_patch != 0 ||
+        !surface.preset.empty() || surface.face) {
+        faults.emplace_back("surface/joined: joined faces take the place of preset, patches and face");
+    }
+}
+
 void check_surface(Faults& faults, const SurfaceInput& surface) {
+    if (surface.joined) {
+        check_joined(faults, surface);
+        return;
+    }
     if (surface.face) {
         check_face(faults, surface);
         return;
@@ -267,7 +295,28 @@ void check_plot(Faults& faults, const PlotSettings& set) {
     }
 }
 
+template <class Face, class Surface> std::vector<Face*> faces_in(Surface& surface) {
+    std::vector<Face*> faces;
+    if (surface.face) {
+        faces.push_back(&*surface.face);
+    }
+    if (surface.joined) {
+        for (auto& joined : surface.joined->faces) {
+            faces.push_back(&joined.face);
+        }
+    }
+    return faces;
+}
+
 } // namespace
+
+std::vector<const FaceInput*> SurfaceInput::exact_faces() const {
+    return faces_in<const FaceInput>(*this);
+}
+
+std::vector<FaceInput*> SurfaceInput::exact_faces() {
+    return faces_in<FaceInput>(*this);
+}
 
 Project project_from_preset(std::string_view preset_id) {
     const geometry::SurfacePreset& preset = geometry::surface_preset(preset_id);

@@ -32,18 +32,43 @@ struct FaceInput {
     friend bool operator==(const FaceInput&, const FaceInput&) = default;
 };
 
+/// One of several faces that are machined as one surface.
+struct JoinedFace {
+    int number = 1; ///< what messages call it: its number in the file that it is from
+    FaceInput face;
+
+    friend bool operator==(const JoinedFace&, const JoinedFace&) = default;
+};
+
+/// Faces of a CAD model that continue one another (core/region/joined_region.h).
+struct JoinedInput {
+    std::vector<JoinedFace> faces; ///< 2 to region::most_region_faces
+    /// Next to these places on the boundary lie the corners of the square that the faces are spread out on,
+    /// mm, (0,0) first; nothing: they are searched for.
+    std::optional<std::array<Vec3, 4>> corners;
+
+    friend bool operator==(const JoinedInput&, const JoinedInput&) = default;
+};
+
 /// The design: the nets themselves, and the preset they started from for people to see.
 struct SurfaceInput {
     std::string preset;                        ///< id of the preset it started from; empty if none
-    std::vector<geometry::ControlNet> patches; ///< at least one, or none if there is a face
+    std::vector<geometry::ControlNet> patches; ///< at least one, or none if there are faces
     std::vector<geometry::Trim> trims;         ///< one per patch; those that are missing: all of the patch
     int machined_patch = 0;                    ///< index of the patch that the tool path covers
     bool flipped = false;                      ///< cut on the side against S_u x S_v
 
-    std::optional<FaceInput> face{}; ///< in place of patches
+    std::optional<FaceInput> face{};     ///< in place of patches
+    std::optional<JoinedInput> joined{}; ///< in place of patches and face
 
-    /// What of the face, or of the patch that the tool path covers, is cut.
-    [[nodiscard]] geometry::Trim machined_trim() const { return face ? face->trim : trim(machined_patch); }
+    /// The face, or those that are joined; none of patches.
+    [[nodiscard]] std::vector<const FaceInput*> exact_faces() const;
+    [[nodiscard]] std::vector<FaceInput*> exact_faces();
+    [[nodiscard]] bool has_patches() const { return !face && !joined; }
+    /// What of the face, or of the patch that the tool path covers, is cut. Joined faces: all of them.
+    [[nodiscard]] geometry::Trim machined_trim() const {
+        return joined ? geometry::Trim{} : face ? face->trim : trim(machined_patch);
+    }
     /// What of a patch is cut.
     [[nodiscard]] geometry::Trim trim(int patch) const {
         const auto n = static_cast<std::size_t>(patch);

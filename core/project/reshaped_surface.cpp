@@ -23,8 +23,11 @@ using geometry::Parameter;
 using geometry::Trim;
 
 BezierPatch patch_of(const SurfaceInput& surface, int patch) {
-    if (surface.face) {
-        throw Error("the surface is an exact face without patches: its control points stay as they are",
+    if (!surface.has_patches()) {
+        throw Error(surface.joined
+                        ? "the surface is several exact faces without patches: their control points stay as "
+                          "they are"
+                        : "the surface is an exact face without patches: its control points stay as they are",
                     {},
                     "import it without --exact to change its patches");
     }
@@ -155,8 +158,14 @@ SurfaceInput with_turn(SurfaceInput surface, const Vec3& degrees) {
         for (geometry::ControlNet& net : surface.patches) {
             turn(net.points);
         }
-        if (surface.face) {
-            turn(surface.face->net.points);
+        for (FaceInput* face : surface.exact_faces()) {
+            turn(face->net.points);
+        }
+        if (surface.joined && surface.joined->corners) {
+            auto& corners = *surface.joined->corners;
+            std::vector<Vec3> places(corners.begin(), corners.end());
+            turn(places);
+            std::copy(places.begin(), places.end(), corners.begin());
         }
     }
     if (!degrees.isZero(0.0)) {

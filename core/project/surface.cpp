@@ -1,6 +1,7 @@
 #include "core/project/surface.h"
 
 #include "core/base/error.h"
+#include "core/project/internal/joined_faults.h"
 
 #include <fmt/format.h>
 
@@ -10,8 +11,12 @@
 namespace millwright::project {
 
 geometry::Surface surface_of(const SurfaceInput& input) {
-    if (input.face) {
-        return geometry::Surface(geometry::BsplineSurface(input.face->net));
+    if (!input.has_patches()) {
+        std::vector<geometry::BsplineSurface> faces;
+        for (const FaceInput* face : input.exact_faces()) {
+            faces.emplace_back(face->net);
+        }
+        return geometry::Surface(std::move(faces));
     }
     std::vector<geometry::BezierPatch> patches;
     for (const geometry::ControlNet& net : input.patches) {
@@ -20,7 +25,21 @@ geometry::Surface surface_of(const SurfaceInput& input) {
     return geometry::Surface(std::move(patches));
 }
 
-region::Region machined_region(const SurfaceInput& input) {
+region::JoinedRegion joined_region(const JoinedInput& input, const Progress& progress) {
+    std::vector<region::ExactFace> faces;
+    for (const JoinedFace& joined : input.faces) {
+        if (!joined.face.trim.everything()) {
+            throw Error(fmt::format("face {}: {}", joined.number, no_joined_trim));
+        }
+        faces.push_back({geometry::BsplineSurface(joined.face.net), joined.number});
+    }
+    return region::joined_region(faces, {.mesh = {}, .corners = input.corners}, progress);
+}
+
+region::Region machined_region(const SurfaceInput& input, const Progress& progress) {
+    if (input.joined) {
+        return joined_region(*input.joined, progress).region;
+    }
     if (input.face) {
         return {geometry::BsplineSurface(input.face->net), input.face->trim};
     }

@@ -2,7 +2,9 @@
 
 #include "core/base/error.h"
 #include "core/base/numbers.h"
+#include "core/exchange/cad_file.h"
 #include "core/geometry/presets.h"
+#include "core/project/internal/joined_faults.h"
 #include "core/project/internal/part_size.h"
 #include "core/project/internal/setting_json.h"
 
@@ -100,8 +102,8 @@ std::vector<double> knots(const JsonValue& value) {
     return result;
 }
 
+/// The fields of a face; its owner says which others it has.
 FaceInput face(const JsonValue& value) {
-    value.expect_only({"degree", "knots_u", "knots_v", "points", "weights", "trim"});
     FaceInput result;
     const auto degree = value.at("degree").items(2);
     result.net.degree_u = degree[0].integer(1, geometry::max_bspline_degree);
@@ -118,6 +120,36 @@ FaceInput face(const JsonValue& value) {
     }
     if (const auto outline = value.find("trim")) {
         result.trim = trim(*outline);
+    }
+    return result;
+}
+
+JoinedFace joined_face(const JsonValue& value, int place) {
+    value.expect_only({"number", "degree", "knots_u", "knots_v", "points", "weights", "trim"});
+    JoinedFace result;
+    const auto number = value.find("number");
+    result.number = number ? number->integer(1, exchange::most_cad_faces) : place + 1;
+    result.face = face(value);
+    if (!result.face.trim.everything()) {
+        value.at("trim").fail(std::string(no_joined_trim), "remove the outline, or the face");
+    }
+    return result;
+}
+
+JoinedInput joined(const JsonValue& value) {
+    value.expect_only({"faces", "corners"});
+    JoinedInput result;
+    const JsonValue faces = value.at("faces");
+    for (const JsonValue& one : faces.items()) {
+        result.faces.push_back(joined_face(one, static_cast<int>(result.faces.size())));
+    }
+    if (std::string fault = fault_of_count(result.faces.size()); !fault.empty()) {
+        faces.fail(fault);
+    }
+    if (const auto corners = value.find("corners")) {
+        const auto places = corners->items(4);
+        result.corners.emplace();
+        std::ranges::transform(places, result.corners->begin(), point_of);
     }
     return result;
 }
@@ -188,13 +220,38 @@ Json face_json(const FaceInput& face) {
     return json;
 }
 
+Json joined_json(const JoinedInput& joined) {
+    Json json;
+    json["faces"] = Json::array();
+    for (const JoinedFace& one : joined.faces) {
+        Json face;
+        face["number"] = one.number;
+        face.update(face_json(one.face));
+        json["faces"].push_back(std::move(face));
+    }
+    if (joined.corners) {
+        json["corners"] = Json::array();
+        for (const Vec3& corner : *joined.corners) {
+            json["corners"].push_back(point_json(corner));
+        }
+    }
+    return json;
+}
+
 } // namespace
 
 SurfaceInput surface_input_of(const JsonValue& value) {
     SurfaceInput result;
     if (const auto exact = value.find("face")) {
         value.expect_only({"face", "flipped"});
+        exact->expect_only({"degree", "knots_u", "knots_v", "points", "weights", "trim"});
         result.face = face(*exact);
+        read_flag(value, "flipped", result.flipped);
+        return result;
+    }
+    if (const auto several = value.find("joined")) {
+        value.expect_only({"joined", "flipped"});
+        result.joined = joined(*several);
         read_flag(value, "flipped", result.flipped);
         return result;
     }
@@ -229,6 +286,11 @@ Json json_of(const SurfaceInput& surface) {
     Json json;
     if (surface.face) {
         json["face"] = face_json(*surface.face);
+        json["flipped"] = surface.flipped;
+        return json;
+    }
+    if (surface.joined) {
+        json["joined"] = joined_json(*surface.joined);
         json["flipped"] = surface.flipped;
         return json;
     }

@@ -85,6 +85,43 @@ TEST_F(ImportCommand, AFaceOfSeveralPatchesIsOneExactSurface) {
                 HasSubstr("--exact applies only to a face of a STEP or IGES file"));
 }
 
+// The dome in four faces is planned like the dome.
+TEST_F(ImportCommand, SeveralFacesAreJoinedAndPlannedAsOneSurface) {
+    const std::string file = "assets/samples/dome-faces.step";
+    if (run({"import", file}).exit_code != 0) {
+        GTEST_SKIP() << "built without Open CASCADE";
+    }
+    const std::string joined = path("joined.json");
+    const Ended made = run({"import", file, "--exact", "--faces", "1,2,3,4", "--out", joined, "--json"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const nlohmann::json told = nlohmann::json::parse(made.out).at("joined");
+    EXPECT_EQ(told.at("faces"), nlohmann::json::array({1, 2, 3, 4}));
+    EXPECT_EQ(told.at("flattening"), "own parameters");
+    EXPECT_LT(told.at("boundary_off_mm").get<double>(), 0.01);
+    const auto figures = [&](const std::string& project, const std::string& out) {
+        const Ended planned = run({"plan", project, "--out", path(out)});
+        EXPECT_EQ(planned.exit_code, 0) << planned.err;
+        return nlohmann::json::parse(content_of(path(out) + "/report.json"));
+    };
+    const nlohmann::json whole = figures("assets/projects/dome.json", "whole");
+    nlohmann::json of_faces = nlohmann::json::parse(content_of("assets/projects/dome.json"));
+    of_faces["surface"] = nlohmann::json::parse(content_of(joined)).at("surface");
+    (void)written("joined.json", of_faces.dump());
+    const nlohmann::json faces = figures(joined, "faces");
+    EXPECT_EQ(faces.at("surface").at("faces").size(), 4U);
+    const auto uniform = [](const nlohmann::json& report) {
+        return report.at("errors").at("uniform").at("closest").at("max").get<double>();
+    };
+    EXPECT_NEAR(uniform(faces), uniform(whole), 0.02 * uniform(whole));
+    EXPECT_THAT(run({"import", file, "--exact", "--faces", "1,4", "--out", joined}).err,
+                HasSubstr("faces 1 and 4"));
+    EXPECT_THAT(run({"import", file, "--exact", "--faces", "1,9", "--out", joined}).err,
+                HasSubstr("no usable face 9"));
+    EXPECT_THAT(run({"import", file, "--faces", "1,2", "--out", joined}).err, HasSubstr("add --exact"));
+    EXPECT_THAT(run({"import", file, "--exact", "--face", "1", "--faces", "1,2", "--out", joined}).err,
+                HasSubstr("exclude each other"));
+}
+
 TEST_F(ImportCommand, StepComesBackAsItWas) {
     const std::string file = exported("dome.step");
     const Ended ended = run({"import", file, "--out", path("back.json"), "--json"});

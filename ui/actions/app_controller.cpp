@@ -30,8 +30,8 @@ Box3 box_of(const project::SurfaceInput& surface) {
             box.extend(point);
         }
     }
-    if (surface.face) {
-        for (const Vec3& point : surface.face->net.points) {
+    for (const project::FaceInput* face : surface.exact_faces()) {
+        for (const Vec3& point : face->net.points) {
             box.extend(point);
         }
     }

@@ -126,6 +126,29 @@ void draw_face(Ui& ui, const project::FaceInput& face) {
     ui.note("A face of a CAD model without a fit. To change control points, import it as patches.");
 }
 
+/// Of faces that are machined as one surface, and how they were spread out.
+void draw_joined(Ui& ui, const project::JoinedInput& joined, const FrameState& now) {
+    const auto section = ui.section("joined", "Joined faces");
+    if (!section) {
+        return;
+    }
+    ui.value("count", "Faces", std::to_string(joined.faces.size()));
+    if (const auto made = now.plan ? now.plan->plan.joined : nullptr) {
+        ui.value("distortion",
+                 "Distortion",
+                 fixed(made->flattening.distortion, 3),
+                 "",
+                 "Symmetric Dirichlet energy of the mapping; 1 means none");
+        ui.value("boundary_off",
+                 "Boundary error",
+                 fixed(made->boundary_off, 4),
+                 "mm",
+                 "Largest distance between the border of the mapping and the boundary of the faces");
+    }
+    ui.note("Exact faces of a CAD model, machined as one surface. To change control points, import them as "
+            "patches.");
+}
+
 int decimals_of(int coordinate) {
     return coordinate == weight_column ? 3 : 2;
 }
@@ -153,6 +176,10 @@ void DesignPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
         return;
     }
     draw_surface(ui, now, ask);
+    if (now.project.surface.joined) {
+        draw_joined(ui, *now.project.surface.joined, now);
+        return;
+    }
     if (now.project.surface.face) {
         draw_face(ui, *now.project.surface.face);
         return;

@@ -77,14 +77,16 @@ void draw_faces(Ui& ui, ActionQueue& ask, const exchange::CadModel& model, const
     view.row_id = [&](std::ptrdiff_t row) {
         return std::to_string(model.faces[static_cast<std::size_t>(row)].number);
     };
-    const int number = choice.face == 0 && model.faces.size() == 1 ? model.faces.front().number : choice.face;
-    const auto found = std::ranges::find(model.faces, number, &CadFace::number);
+    const std::vector<int> chosen = project::chosen_faces(model, choice);
+    const auto is_chosen = [&](const CadFace& face) { return std::ranges::count(chosen, face.number) > 0; };
+    const auto found = std::ranges::find_if(model.faces, is_chosen);
     view.chosen = found == model.faces.end() ? -1 : found - model.faces.begin();
+    view.is_chosen = [&](std::ptrdiff_t row) {
+        return is_chosen(model.faces[static_cast<std::size_t>(row)]);
+    };
     view.height = std::min(ui.px(row_px) * static_cast<float>(view.rows + 1) + ui.px(8.0F), ui.px(most_px));
     if (const auto row = widgets::table(ui, "list", view)) {
-        ImportChoice changed = choice;
-        changed.face = model.faces[static_cast<std::size_t>(*row)].number;
-        choose_import(ask, changed);
+        choose_import(ask, project::with_face(choice, model.faces[static_cast<std::size_t>(*row)].number));
     }
     for (const std::string& reason : model.left_out) {
         ui.note("Not imported: " + reason);
@@ -189,6 +191,26 @@ void draw_exact(Ui& ui, ActionQueue& ask, const ImportChoice& choice) {
     }
 }
 
+/// From then on faces are added and taken out by pointing at them.
+void draw_join(Ui& ui, ActionQueue& ask, const exchange::CadModel& model, const ImportChoice& choice) {
+    const std::vector<int> chosen = project::chosen_faces(model, choice);
+    const auto none = widgets::Permission::refused("Select the first face.");
+    if (const auto join =
+            ui.toggle("join",
+                      "Join faces",
+                      !choice.joined.empty(),
+                      "Machine several adjacent faces as one exact surface: click a face to add "
+                      "or remove it",
+                      chosen.empty() ? none : widgets::Permission{})) {
+        ImportChoice changed = choice;
+        changed.joined = *join ? chosen : std::vector<int>{};
+        changed.face = chosen.front();
+        changed.exact = changed.exact || *join;
+        changed.degrees = *join ? std::nullopt : changed.degrees;
+        choose_import(ask, changed);
+    }
+}
+
 void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, const ImportChoice& choice) {
     const auto section = ui.section("patch", "Patch");
     if (!section) {
@@ -200,6 +222,12 @@ void draw_choice(Ui& ui, ActionQueue& ask, const project::ImportSource& source, 
     }
     if (source.points) {
         draw_cloud(ui, ask, choice);
+    }
+    if (source.model && source.model->faces.size() > 1) {
+        draw_join(ui, ask, *source.model, choice);
+    }
+    if (!choice.joined.empty()) {
+        return;
     }
     if (!source.mesh) {
         draw_one_patch(ui, ask, choice);
@@ -242,7 +270,19 @@ void draw_found(Ui& ui, const ImportResult& found) {
         return;
     }
     const project::SurfaceInput& surface = found.surface->surface;
-    ui.value("patches", "Patches", surface.face ? "1 exact face" : std::to_string(surface.patches.size()));
+    const std::size_t exact = surface.exact_faces().size();
+    ui.value("patches",
+             "Patches",
+             exact == 0   ? std::to_string(surface.patches.size())
+             : exact == 1 ? std::string("1 exact face")
+                          : fmt::format("{} exact faces, joined", exact));
+    if (const auto& joined = found.surface->joined) {
+        ui.value("distortion",
+                 "Distortion",
+                 fixed(joined->flattening.distortion, 3),
+                 "",
+                 "Symmetric Dirichlet energy of the mapping to the square of u and v; 1 means none");
+    }
     if (const auto& points = found.surface->points) {
         draw_points_off(ui, *points, found.source->mesh ? "point" : "point in line");
     } else if (const auto& fit = found.surface->fit) {

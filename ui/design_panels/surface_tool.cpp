@@ -193,9 +193,13 @@ void obey(const viewport::PaintSurface& painted, const FrameState& now, ActionQu
     const actions::SurfaceToolView& tool = now.view_state.surface_tool;
     const grid::Brush brush{
         .radius_mm = tool.radius_mm, .value = tool.erases ? 0.0 : 1.0, .strength = tool.strength};
-    const auto paint = [painted, brush](Project& p) {
-        project::paint_weight(
-            p.grid.elliptic, project::machined_region(p.surface), painted.from, painted.to, brush);
+    const auto setup = now.plan ? now.plan->plan.cutting_setup : nullptr;
+    const auto paint = [painted, brush, setup](Project& p) {
+        if (p.surface.joined && !setup) { // they are not joined yet
+            return;
+        }
+        const region::Region region = p.surface.joined ? setup->patch : project::machined_region(p.surface);
+        project::paint_weight(p.grid.elliptic, region, painted.from, painted.to, brush);
         project::let_paint_count(p.grid.elliptic);
     };
     ask.drag(painted.stage,

@@ -78,6 +78,17 @@ bool contains(const std::vector<ControlPointId>& points, const ControlPointId& p
     return std::ranges::find(points, point) != points.end();
 }
 
+/// Where the mouse is on the surface; on joined faces by the parameters of all of them.
+std::optional<SurfaceHit> hit_of(const MouseToolInput& input, const Frame& s_T_w) {
+    std::optional<SurfaceHit> hit = input.picker.hit(render::ray(input.view, pixel_of(input.pointer)), s_T_w);
+    const region::Region* joined = joined_faces(input.scene);
+    if (hit && joined != nullptr) {
+        hit->uv = joined->nearest(hit->position).parameters;
+        hit->patch = geometry::PatchId{0};
+    }
+    return hit;
+}
+
 } // namespace
 
 void MouseTool::leave() {
@@ -90,8 +101,7 @@ void MouseTool::leave() {
 std::vector<ViewEvent> MouseTool::follow_tool(const MouseToolInput& input) {
     leave();
     const auto hit = input.pointer.hovered || surface_.works()
-                         ? input.picker.hit(render::ray(input.view, pixel_of(input.pointer)),
-                                            scene_from_workpiece(input.scene))
+                         ? hit_of(input, scene_from_workpiece(input.scene))
                          : std::nullopt;
     if (hit) {
         under_mouse_.on_surface = hit->position;
@@ -155,7 +165,7 @@ std::optional<double> MouseTool::point_at_solid(const MouseToolInput& input, con
         }
         return hit ? std::optional(hit->distance) : std::nullopt;
     }
-    const auto hit = input.picker.hit(ray, s_T_w);
+    const auto hit = hit_of(input, s_T_w);
     if (hit) {
         under_mouse_.on_surface = hit->position;
         under_mouse_.uv = hit->uv;

@@ -54,13 +54,27 @@ void add_design(PictureFacts& facts, const plan::Plan& plan) {
     const std::string lengths = reachable_length_text(size.x(), 1) + " \u00D7 " +
                                 reachable_length_text(size.y(), 1) + " \u00D7 " +
                                 reachable_length_text(size.z(), 1);
-    if (const auto& face = plan.surface->face()) {
-        const auto [u, v] = face->spans();
-        facts.columns = {"design", "net size mm", "degree", "control points", "spans"};
-        facts.rows.push_back({face->rational() ? "rational" : "polynomial",
+    const std::vector<geometry::BsplineSurface>& faces = plan.surface->faces();
+    if (plan.joined) {
+        facts.columns = {"design", "net size mm", "faces", "flattening", "distortion"};
+        facts.rows.push_back({"joined faces",
                               lengths,
-                              times(face->net().degree_u, face->net().degree_v),
-                              times(face->net().rows, face->net().columns),
+                              std::to_string(faces.size()),
+                              std::string(region::name_of(plan.joined->flattening.method)),
+                              fixed(plan.joined->flattening.distortion, 3)});
+        return;
+    }
+    if (faces.size() > 1) { // they could not be joined
+        return;
+    }
+    if (!faces.empty()) {
+        const geometry::BsplineSurface& face = faces.front();
+        const auto [u, v] = face.spans();
+        facts.columns = {"design", "net size mm", "degree", "control points", "spans"};
+        facts.rows.push_back({face.rational() ? "rational" : "polynomial",
+                              lengths,
+                              times(face.net().degree_u, face.net().degree_v),
+                              times(face.net().rows, face.net().columns),
                               times(u, v)});
         return;
     }

@@ -104,6 +104,20 @@ Layers layers_of_arm() {
             .tool_frame = true};
 }
 
+const region::Region* joined_faces(const Scene& scene) {
+    const bool several = scene.surface && scene.surface->faces().size() > 1;
+    if (!several || !scene.cutting_setup) {
+        return nullptr;
+    }
+    const region::Region& patch = scene.cutting_setup->patch;
+    return patch.face_count() == std::ssize(scene.surface->faces()) ? &patch : nullptr;
+}
+
+const geometry::ParametricSurface& worked_surface(const Scene& scene) {
+    const region::Region* joined = joined_faces(scene);
+    return joined != nullptr ? *joined : scene.surface->part(scene.surface_tool.patch);
+}
+
 bool operator==(const Scene& a, const Scene& b) {
     return a.layers == b.layers && a.surface == b.surface && a.trims == b.trims &&
            a.reference == b.reference && a.cutting_setup == b.cutting_setup &&

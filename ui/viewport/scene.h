@@ -161,6 +161,12 @@ struct Scene {
     render::LayerColors colors = {}; ///< chosen by a person
 };
 
+/// Faces that are machined as one surface, whose parameters are then those of the region; null for others,
+/// and until they are joined.
+[[nodiscard]] const region::Region* joined_faces(const Scene& scene);
+/// What the scene's tool works on; with a surface that has such a part.
+[[nodiscard]] const geometry::ParametricSurface& worked_surface(const Scene& scene);
+
 /// Whether both look the same.
 [[nodiscard]] bool operator==(const Scene& a, const Scene& b);
 

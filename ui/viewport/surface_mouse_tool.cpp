@@ -20,10 +20,6 @@ constexpr double dabs_per_radius = 4.0; // as far apart as those of a stroke (co
 constexpr int places_on_ring = 64;
 constexpr int chords_per_side = 16;
 
-const geometry::ParametricSurface& patch_of(const Scene& scene) {
-    return scene.surface->part(scene.surface_tool.patch);
-}
-
 /// How far from `from` along `way` in the parameters [0,1]^2 end.
 double room(const Vec2& from, const Vec2& way) {
     double most = 1e9;
@@ -86,7 +82,7 @@ void SurfaceMouseTool::paint(const SurfaceMouseToolInput& input, std::vector<Vie
         last_ = at_;
         events.emplace_back(PaintSurface{*at_, *at_, DragStage::going_on});
     } else if (last_ && input.pointer.held == MouseButton::left && at_) {
-        const geometry::ParametricSurface& patch = patch_of(input.scene);
+        const geometry::ParametricSurface& patch = worked_surface(input.scene);
         const double way =
             (patch.position(at_->x(), at_->y()) - patch.position(last_->x(), last_->y())).norm();
         if (way * dabs_per_radius >= input.scene.surface_tool.radius_mm) {
@@ -134,7 +130,7 @@ pick_corner(const Scene& scene, const render::View& view, const glm::dvec2& pixe
     double nearest = within_px;
     for (std::size_t k = 0; k < scene.surface_tool.outline.size(); ++k) {
         const Vec2& uv = scene.surface_tool.outline[k];
-        const Vec3 place = s_T_w * patch_of(scene).position(uv.x(), uv.y());
+        const Vec3 place = s_T_w * worked_surface(scene).position(uv.x(), uv.y());
         if (const auto seen = render::project(view, render::to_glm(place))) {
             const double away = glm::length(seen->pixel - pixel);
             if (away <= nearest) {

@@ -154,7 +154,7 @@ bool draw_table_row(Ui& ui,
         keep_wheel();
     }
     const Rect row = rows.row(index);
-    if (index == view.chosen) {
+    if (index == view.chosen || (view.is_chosen && view.is_chosen(index))) {
         fill(row, ui.colours().selection);
     } else if (now.hovered) {
         fill(row, faded(ui.colours().hover, 0.6));

@@ -27,7 +27,8 @@ struct TableView {
         {};                                                     ///< asked for the rows in sight only
     std::function<std::string(std::ptrdiff_t row)> row_id = {}; ///< of the domain; makes the path
     std::ptrdiff_t chosen = -1;
-    std::ptrdiff_t wanted = -1; ///< brought into sight in this frame; -1: none
+    std::function<bool(std::ptrdiff_t row)> is_chosen = {}; ///< where several may be; empty: `chosen` alone
+    std::ptrdiff_t wanted = -1;                             ///< brought into sight in this frame; -1: none
     std::function<bool(std::ptrdiff_t row, int column)> is_muted = {}; ///< greyed; empty: none is
     float height = 0.0F; ///< of the whole table; 0: as its rows need
     std::string_view when_empty = "No entries yet.";

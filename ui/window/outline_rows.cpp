@@ -61,6 +61,9 @@ bool is_listed(const FrameState& now, GridMethod method) {
 }
 
 std::string degree_text(const project::SurfaceInput& surface) {
+    if (surface.joined) {
+        return counted(surface.joined->faces.size(), "face");
+    }
     if (surface.face) {
         return fmt::format("degree {},{}", surface.face->net.degree_u, surface.face->net.degree_v);
     }

@@ -27,6 +27,9 @@ std::string surface_text(const project::SurfaceInput& surface) {
     const auto presets = geometry::surface_presets();
     const auto preset = std::find_if(
         presets.begin(), presets.end(), [&](const auto& known) { return known.id == surface.preset; });
+    if (surface.joined) {
+        return fmt::format("{} exact faces, joined", surface.joined->faces.size());
+    }
     if (surface.face) {
         return fmt::format(
             "Exact face, degree {}, {}", surface.face->net.degree_u, surface.face->net.degree_v);

@@ -124,8 +124,7 @@ bool shows_the_project(const FrameState& now) {
 /// While the import is pending; afterwards its faces only stand there.
 void choose_face(int number, const FrameState& now, ActionQueue& ask) {
     if (shows_import(now)) {
-        project::ImportChoice choice = now.import.choice();
-        choice.face = number;
+        const project::ImportChoice choice = project::with_face(now.import.choice(), number);
         ask.files([choice](actions::AppController& app) { app.import().choose(choice); });
     }
 }

@@ -49,8 +49,8 @@ PendingImport::reference(const project::SurfaceInput& design) const {
 }
 
 bool PendingImport::is_measured(const project::SurfaceInput& design) const {
-    return is_open() ||
-           (taken_ && design.patches == taken_->surface.patches && design.face == taken_->surface.face);
+    return is_open() || (taken_ && design.patches == taken_->surface.patches &&
+                         design.face == taken_->surface.face && design.joined == taken_->surface.joined);
 }
 
 } // namespace millwright::actions

@@ -25,6 +25,7 @@ enum class Quality {
 enum class StageKind {
     surface,
     trims,
+    region,
     cutting_setup,
     singular_points,
     grid,

@@ -1,4 +1,4 @@
-// The surface of a project as JSON: Bezier patches with their trim, or one B-spline face. Lengths mm.
+// The surface of a project as JSON: Bezier patches with their trim, or B-spline faces. Lengths mm.
 #pragma once
 
 #include "core/base/json.h"

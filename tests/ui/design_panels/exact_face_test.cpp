@@ -104,7 +104,7 @@ TEST_F(ExactFaceInTheWindow, ItsImportIsUndoneWithABrushOrAnOutlineOnTheSurface)
                                   [&](const actions::FrameState& now) {
                                       ASSERT_EQ(now.project.surface.machined_patch, 1);
                                       const viewport::Scene scene = scene_of(now);
-                                      ASSERT_TRUE(scene.surface->face());
+                                      ASSERT_FALSE(scene.surface->faces().empty());
                                       EXPECT_EQ(scene.surface_tool.kind, SurfaceToolKind::none);
                                       EXPECT_TRUE(scene.surface_tool.outline.empty());
                                   });
@@ -167,7 +167,7 @@ TEST_F(ExactFaceInTheWindow, IsSeenInEveryWorkspace) {
         person_.app().run("view.fit");
         person_.frames(3);
         EXPECT_FALSE(person_.app().look().plan->failure) << name;
-        EXPECT_TRUE(person_.app().look().plan->plan.surface->face()) << name;
+        EXPECT_FALSE(person_.app().look().plan->plan.surface->faces().empty()) << name;
         person_.keep(std::string("exact-face-") + name);
     }
     ASSERT_TRUE(person_.app().look().program_path());

@@ -37,9 +37,9 @@ std::vector<DrawnPart> parts_of(const geometry::Surface& surface) {
     for (const geometry::BezierPatch& patch : surface.patches()) {
         parts.push_back({patch, cells(patch.degree_u()), cells(patch.degree_v())});
     }
-    if (const auto& face = surface.face()) {
-        const auto [u, v] = face->spans();
-        parts.push_back({*face, cells(u * face->net().degree_u), cells(v * face->net().degree_v)});
+    for (const geometry::BsplineSurface& face : surface.faces()) {
+        const auto [u, v] = face.spans();
+        parts.push_back({face, cells(u * face.net().degree_u), cells(v * face.net().degree_v)});
     }
     return parts;
 }

@@ -70,7 +70,7 @@ void draw_places(widgets::Ui& ui,
 
 void draw_corners(widgets::Ui& ui, const Pane& pane, const Scene& scene, const SurfaceMouseTool& mouse_tool) {
     const SurfaceTool& tool = scene.surface_tool;
-    const geometry::ParametricSurface& patch = scene.surface->part(tool.patch);
+    const geometry::ParametricSurface& patch = worked_surface(scene);
     const Frame s_T_w = scene_from_workpiece(scene);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (std::size_t k = 0; k < tool.outline.size(); ++k) {
@@ -100,7 +100,7 @@ void draw_surface_tool(widgets::Ui& ui,
     if (!scene.surface || (tool.kind == SurfaceToolKind::none && tool.outline.empty())) {
         return;
     }
-    const geometry::ParametricSurface& patch = scene.surface->part(tool.patch);
+    const geometry::ParametricSurface& patch = worked_surface(scene);
     const Frame s_T_w = scene_from_workpiece(scene);
     draw_places(ui, pane, picker, s_T_w, outline_on(patch, tool.outline, tool.closed));
     if (tool.kind == SurfaceToolKind::outline) {
