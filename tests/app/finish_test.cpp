@@ -50,17 +50,17 @@ private:
     std::string text_;
 };
 
-/// Waves with a crest line, over 24 x 16 mm, below Z 0.
+/// Waves with a valley line, over 10 x 7 mm, below Z 0.
 std::string relief(bool upwards = true) {
     const auto at = [](int i, int j) {
         const double x = 0.5 * i;
         const double y = 0.5 * j;
         return Corner{
-            20.0 + x, 20.0 + y, -6.0 + 2.0 * std::sin(0.6 * x) * std::cos(0.5 * y) + std::abs(y - 8.0) / 4};
+            20.0 + x, 20.0 + y, -6.0 + 2.0 * std::sin(0.6 * x) * std::cos(0.5 * y) + std::abs(y - 3.3) / 4};
     };
     StlText stl;
-    for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 48; ++i) {
+    for (int j = 0; j < 14; ++j) {
+        for (int i = 0; i < 20; ++i) {
             if (upwards) {
                 stl.add(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
             } else {
@@ -99,17 +99,17 @@ TEST_F(FinishCommand, LeavesNoMoreThanItsScallopWhereTheToolFits) {
     EXPECT_LE(check.at("largest_left").at("distance_mm").get<double>(), 0.02);
     EXPECT_GT(check.at("largest_left").at("distance_mm").get<double>(), 0.001);
     EXPECT_LE(check.at("deepest_gouge").at("depth_mm").get<double>(), 0.006);
-    EXPECT_GT(check.at("fits_percent").get<double>(), 80.0);
+    EXPECT_GT(check.at("fits_percent").get<double>(), 50.0);
     EXPECT_DOUBLE_EQ(check.at("within_percent").get<double>(), 100.0);
     EXPECT_THAT(ended.out, HasSubstr("largest distance left where it fits: 0.0"));
-    EXPECT_THAT(ended.err, HasSubstr("160 open edges (the mesh has a border), the first at"));
+    EXPECT_THAT(ended.err, HasSubstr("68 open edges (the mesh has a border), the first at"));
     EXPECT_THAT(content_of(path("out/program.ngc")), HasSubstr("finish: relief.stl"));
     EXPECT_THAT(content_of(path("out/left.ply")), StartsWith("ply\n"));
 }
 
 TEST_F(FinishCommand, FindsWhatAWiderStepLeaves) {
-    const Ended ended =
-        finish(written("relief.stl", relief()), {"--tool", "ball:2", "--step-over", "0.8", "--one-way"});
+    const Ended ended = finish(written("relief.stl", relief()),
+                               {"--tool", "ball:2", "--step-over", "0.8", "--parallel-only"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     const auto check = report().at("check");
     EXPECT_GT(check.at("largest_left").at("distance_mm").get<double>(), 0.07); // 0.8^2 / 8
@@ -125,7 +125,7 @@ TEST_F(FinishCommand, TheSimulationAgreesThatNothingIsGouged) {
                              "--machine",
                              "router-xyz",
                              "--stock",
-                             "box:24,16,10@20,20,-11",
+                             "box:10,7,10@20,20,-11",
                              "--tool",
                              "bull:4:1",
                              "--part",
@@ -138,12 +138,17 @@ TEST_F(FinishCommand, TheSimulationAgreesThatNothingIsGouged) {
     EXPECT_THAT(ended.out, HasSubstr("no rapid move meets any"));
 }
 
-TEST_F(FinishCommand, FinishesAPocketWithAFlatEnd) {
+TEST_F(FinishCommand, FinishesAPocketWithAFlatEndAndNamesTheCornerThatItMissed) {
     const Ended ended = finish(written("pocket.stl", pocket()), {"--tool", "flat:8:l40", "--step-over", "2"});
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_THAT(ended.err, Not(HasSubstr("open edge")));
-    EXPECT_LE(report().at("check").at("deepest_gouge").at("depth_mm").get<double>(), 0.006);
-    EXPECT_LE(report().at("check").at("largest_left").at("distance_mm").get<double>(), 0.01);
+    const auto check = report().at("check");
+    EXPECT_LE(check.at("deepest_gouge").at("depth_mm").get<double>(), 0.006);
+    const auto place = check.at("largest_left").at("position_mm");
+    const double from_middle_x = std::abs(place.at(0).get<double>() - 40.0);
+    const double from_middle_y = std::abs(place.at(1).get<double>() - 30.0);
+    EXPECT_GT(from_middle_x, 30.0 - 4.0);
+    EXPECT_GT(from_middle_y, 20.0 - 4.0);
 }
 
 TEST_F(FinishCommand, AToolEightMillimetresInTheWallIsSaidToBeEightDeep) {
