@@ -23,6 +23,7 @@
 #include "app/plan/thesis_command.h"
 #include "app/plots/picture_command.h"
 #include "app/plots/plot_command.h"
+#include "app/simulation/finish_command.h"
 #include "app/simulation/simulate_command.h"
 #include "app/studies/study_command.h"
 #include "app/workbench_command.h"
@@ -112,6 +113,7 @@ void add_commands(CLI::App& app, Command& chosen) {
     add_plan_command(app, chosen);
     add_render_command(app, chosen);
     add_simulate_command(app, chosen);
+    add_finish_command(app, chosen);
     add_run_command(app, chosen);
     add_send_command(app, chosen);
     add_stop_command(app, chosen);

@@ -89,7 +89,12 @@ PartSurface part_surface(const CuttingSetup& cutting_setup) {
 }
 
 PartSurface part_surface(const std::filesystem::path& file, const Progress& progress) {
-    const exchange::TriangleMesh mesh = exchange::read_mesh(file, 1.0, progress).mesh;
+    return part_surface(
+        exchange::read_mesh(file, 1.0, progress).mesh, printable(file.filename().string()), progress);
+}
+
+PartSurface
+part_surface(const exchange::TriangleMesh& mesh, const std::string& name, const Progress& progress) {
     double area = 0.0;
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
         area += 0.5 * mesh.doubled_area(n).norm();
@@ -97,7 +102,7 @@ PartSurface part_surface(const std::filesystem::path& file, const Progress& prog
     constexpr double about_points = 20'000.0;
     const double longest = 2.0 * std::sqrt(area / about_points);
     PartSurface part;
-    part.text = fmt::format("{}, {} triangles", printable(file.filename().string()), mesh.triangles.size());
+    part.text = fmt::format("{}, {} triangles", name, mesh.triangles.size());
     part.closed = true;
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
         progress.check();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/progress.h"
+#include "core/exchange/triangle_mesh.h"
 #include "core/plan/evaluation.h"
 #include "core/simulation/comparison.h"
 
@@ -27,6 +28,9 @@ struct PartSurface {
 
 /// The triangles of an STL, OBJ or PLY file in mm, large ones divided. Throws Error, Cancelled.
 [[nodiscard]] PartSurface part_surface(const std::filesystem::path& file, const Progress& progress);
+/// The same of triangles at hand; `name` is for people. Throws Cancelled.
+[[nodiscard]] PartSurface
+part_surface(const exchange::TriangleMesh& mesh, const std::string& name, const Progress& progress);
 
 /// Red: gouged beyond `tolerance` mm; green: within; blue: material left beyond it. One per corner.
 [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> deviation_colors(

@@ -46,6 +46,7 @@ constexpr std::array core_order = {
     Rank{"posts", 8},        Rank{"drivers", 8},    Rank{"cordic_machine", 9}, Rank{"emulators", 9},
     Rank{"jobs", 9},         Rank{"pmac", 10},      Rank{"plan", 10},          Rank{"machine", 11},
     Rank{"studies", 11},     Rank{"region", 2},     Rank{"plot_strokes", 2},   Rank{"hpgl", 3},
+    Rank{"mesh_finish", 5},
 };
 
 // Panels of one workspace know nothing of those of another; what several need lies in ui/panels. The arm's
