@@ -14,6 +14,7 @@
 #include "core/project/arm_input.h"
 #include "core/project/plot_input.h"
 #include "core/project/processor_input.h"
+#include "core/project/stock_input.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/sequenced_path.h"
 
@@ -197,8 +198,9 @@ struct Project {
     ToolpathInput toolpath;
     SequencingInput sequencing;
     ProgramInput program;
-    PlotInput plot; ///< beside the surface
-    ArmInput arm;   ///< beside both
+    StockInput stock; ///< of its simulation; no plan depends on it
+    PlotInput plot;   ///< beside the surface
+    ArmInput arm;     ///< beside both
     ProcessorInput processor;
 
     friend bool operator==(const Project&, const Project&) = default;
