@@ -1,29 +1,15 @@
-// The tools that `millwright simulate` is given by name, and how long their flutes are. Lengths mm.
+// How long the flutes of the tools of `millwright simulate` are, and that each has a number of its own.
+// Lengths mm.
 #pragma once
 
-#include "core/kinematics/machine_model.h"
-#include "core/toolpath/profile.h"
+#include "core/plan/named_tool.h"
 
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace millwright::app {
 
-/// A tool that a person named.
-struct NamedTool {
-    std::optional<int> number;
-    toolpath::Profile body;
-    std::string text;
-    std::shared_ptr<const kinematics::MachineModel> machine{}; ///< with its gauge length; null: as it is
-    std::optional<toolpath::Profile> shank{}, holder{};
-};
-
-/// [N=]SPEC or [N=]FILE. Throws Error. A warning is a sentence.
-[[nodiscard]] NamedTool named_tool(const std::string& text,
-                                   const kinematics::MachineModel& machine,
-                                   std::vector<std::string>& warnings);
+using plan::NamedTool;
 
 /// Throws UsageError where two have the same number.
 void expect_different_numbers(const std::vector<NamedTool>& tools);

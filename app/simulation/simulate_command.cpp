@@ -176,7 +176,7 @@ void add_work_options(CLI::App& command, SimulateOptions& options) {
         .add_option("--stock",
                     options.stock,
                     "box:LX,LY,LZ[@X,Y,Z], cylinder:D,L[,x|y|z][@X,Y,Z], tube:D,BORE,L[,x|y|z][@X,Y,Z] or "
-                    "FILE.stl[@X,Y,Z] (default for a project: the bounding box of its surface plus 2 mm)")
+                    "FILE.stl[@X,Y,Z] (default for a project: its own stock)")
         ->type_name("SPEC");
 }
 

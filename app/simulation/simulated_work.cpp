@@ -11,6 +11,7 @@
 #include "core/base/files.h"
 #include "core/gcode/interpreter.h"
 #include "core/gcode_programs/machine_program.h"
+#include "core/gcode_programs/tool_calls.h"
 #include "core/kinematics/machine_file.h"
 #include "core/plan/part_bodies.h"
 #include "core/plan/part_stock.h"
@@ -33,42 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 using simulation::ToolUse;
 
-/// A change of the tool that the program asks for.
-struct ToolChange {
-    int first_block = 0;
-    int number = 0;
-    int line = 0;
-};
-
-/// Hands everything on, and keeps which tool is changed to before which block.
-class ToolChangeRecorder final : public gcode::CanonSink {
-public:
-    explicit ToolChangeRecorder(gcode::MachineProgramBuilder& builder) : builder_(builder) {}
-
-    void move(const gcode::Move& move, const gcode::SourceLine& now) override { builder_.move(move, now); }
-    void curve(const gcode::Curve& curve, const gcode::SourceLine& now) override {
-        builder_.curve(curve, now);
-    }
-    void command(const gcode::Command& command, const gcode::SourceLine& now) override {
-        builder_.command(command, now);
-        if (command.kind == gcode::CommandKind::select_tool) {
-            selections_.push_back({builder_.block_count(), command.index, command.source.line});
-        } else if (command.kind == gcode::CommandKind::change_tool) {
-            changes_.push_back({builder_.block_count(),
-                                selections_.empty() ? 0 : selections_.back().number,
-                                command.source.line});
-        }
-    }
-    [[nodiscard]] const std::vector<ToolChange>& changes() const { return changes_; }
-    /// All T words.
-    [[nodiscard]] const std::vector<ToolChange>& selections() const { return selections_; }
-
-private:
-    gcode::MachineProgramBuilder& builder_;
-    std::vector<ToolChange> changes_;
-    std::vector<ToolChange> selections_;
-};
-
 /// The tool for T `number`: the one of that number, or the only one if it has none.
 const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool only_call) {
     for (const NamedTool& tool : tools) {
@@ -86,35 +51,15 @@ const NamedTool* tool_for(const std::vector<NamedTool>& tools, int number, bool 
                            fmt::format("add --tool {}=SPEC, such as {}=flat:6", number, number)});
 }
 
-/// The tool of a program without M6, from its first block on: T alone changes nothing.
-ToolChange tool_without_change(const std::vector<ToolChange>& selections, const fs::path& file) {
-    if (selections.empty()) {
-        return {};
-    }
-    const ToolChange& first = selections.front();
-    for (const ToolChange& other : selections) {
-        if (other.number != first.number) {
-            throw Error(Diagnostic{
-                {file, other.line, 0, -1},
-                fmt::format("T{} is selected after T{}, and no M6 changes to it", other.number, first.number),
-                "add M6 where the tool changes"});
-        }
-    }
-    return {0, first.number, first.line};
-}
-
 /// Which of `tools` is in the spindle from which block on.
-void take_tools(const ToolChangeRecorder& found, const std::vector<NamedTool>& tools, SimulatedWork& work) {
-    std::vector<ToolChange> changes = found.changes();
-    if (changes.empty()) {
-        changes.push_back(tool_without_change(found.selections(), work.file));
-    }
-    const bool same = std::ranges::all_of(changes, [&](const ToolChange& change) {
-        return change.number == 0 ||
-               change.number == std::ranges::max(changes, {}, &ToolChange::number).number;
-    });
-    for (const ToolChange& change : changes) {
-        if (change.number == 0 && !found.changes().empty()) { // T0 M6: the spindle is emptied
+void take_tools(const std::vector<gcode::ToolCall>& calls,
+                const std::vector<NamedTool>& tools,
+                SimulatedWork& work) {
+    const int highest = std::ranges::max(calls, {}, &gcode::ToolCall::number).number;
+    const bool same = std::ranges::all_of(
+        calls, [&](const gcode::ToolCall& call) { return call.number == 0 || call.number == highest; });
+    for (const gcode::ToolCall& change : calls) {
+        if (change.empty) { // T0 M6
             work.tools.push_back({change.first_block, 0, std::nullopt});
             continue;
         }
@@ -185,7 +130,7 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     work.machine_file = machine_file;
     std::vector<NamedTool> tools;
     for (const std::string& text : options.tools) {
-        tools.push_back(named_tool(text, work.machine, work.warnings));
+        tools.push_back(plan::named_tool(text, work.machine, work.warnings));
     }
     expect_different_numbers(tools);
     take_flutes(options.flutes, tools);
@@ -193,7 +138,7 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     gcode::MachineProgramSettings making;
     making.chord_tolerance = 0.5 * simulation::tip_tolerance;
     gcode::MachineProgramBuilder builder(work.machine, options.file, making);
-    ToolChangeRecorder recorder(builder);
+    gcode::ToolCallRecorder recorder(builder);
     gcode::Interpreter reader(options.file, reader_settings(options, work.machine), recorder);
     constexpr int lines_per_check = 4096;
     bool more = true;
@@ -211,7 +156,7 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
         work.warnings.push_back(to_text(unknown));
     }
     work.program = std::move(made.program);
-    take_tools(recorder, tools, work);
+    take_tools(recorder.calls(work.file), tools, work);
     for (const NamedTool& tool : tools) {
         if (tool.number &&
             std::ranges::find(work.tools, *tool.number, &ToolUse::number) == work.tools.end()) {
@@ -221,8 +166,23 @@ SimulatedWork work_of_program(const SimulateOptions& options, const Progress& pr
     return work;
 }
 
-/// The part's box and so much more on every side, mm.
-constexpr double stock_allowance = 2.0;
+/// As the option says, else as the project does. Throws Error, of the project's own stock with the file.
+plan::NamedStock stock_of_project(const SimulateOptions& options,
+                                  const project::StockInput& input,
+                                  const geometry::Surface& surface,
+                                  const Progress& progress) {
+    if (!options.stock.empty()) {
+        return plan::stock_from(options.stock, progress);
+    }
+    if (input.around_part) {
+        return plan::stock_around(surface, input.allowance_mm);
+    }
+    try {
+        return plan::stock_from(plan::stock_text(input), progress);
+    } catch (const Error& error) {
+        throw Error("stock: " + error.diagnostic().message, options.file, error.diagnostic().hint);
+    }
+}
 
 /// Throws UsageError for options that say how G-code is read.
 void expect_no_reading(const SimulateOptions& options) {
@@ -296,9 +256,7 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     for (std::size_t n = 0; n < work.program.blocks.size(); ++n) {
         work.program.blocks[n].source_line = plan.listing->line_of_block[n];
     }
-    take_stock(options.stock.empty() ? plan::stock_around(*plan.surface, stock_allowance)
-                                     : plan::stock_from(options.stock, progress),
-               work);
+    take_stock(stock_of_project(options, opened.project.stock, *plan.surface, progress), work);
     return work;
 }
 
@@ -320,6 +278,12 @@ std::vector<fs::path> input_files(const SimulateOptions& options) {
         const simulation::StockText stock = simulation::parse_stock(options.stock);
         if (!stock.stock) {
             files.emplace_back(stock.mesh_file);
+        }
+    }
+    if (options.stock.empty() && is_project(options.file)) {
+        const project::StockInput stock = open_project(options.file).project.stock;
+        if (!stock.around_part && !stock.file.empty()) {
+            files.push_back(stock.file);
         }
     }
     for (const std::string& text : options.tools) {

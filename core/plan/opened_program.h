@@ -9,6 +9,7 @@
 #include "core/gcode/preview_path.h"
 #include "core/gcode/program_text.h"
 #include "core/gcode/reader_settings.h"
+#include "core/gcode_programs/tool_calls.h"
 #include "core/kinematics/machine_model.h"
 #include "core/motion/trajectory.h"
 #include "core/plan/pipeline.h"
@@ -59,6 +60,11 @@ struct PlannedMotion {
     std::shared_ptr<const program::Listing> listing; ///< the file, with the line of each block
     std::vector<gcode::Step> step_of_block;          ///< the first that executes the block's line
     std::string moved_axes; ///< letters of those that it positions, in the machine's order
+    /// What is in the spindle, in the order of the blocks; empty where `unsimulated` says why.
+    std::vector<gcode::ToolCall> tool_calls{};
+    std::optional<Diagnostic> unsimulated{}; ///< why no material can be cut along it
+    Box3
+        cut_box{}; ///< of the tip's feeds, without those that go straight down or up; empty if there are none
 };
 
 /// Everything known of the program at one moment. Immutable once published; parts that are not there yet

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/files.h"
+#include "core/base/text.h"
 #include "core/exchange/mesh_file.h"
 #include "core/geometry/mesh.h"
 #include "core/simulation/spec_text.h"
@@ -49,6 +50,27 @@ NamedStock stock_around(const geometry::Surface& surface, double allowance) {
             fmt::format("{}: the box of the surface and {:g} mm on every side",
                         simulation::to_text(stock),
                         allowance)};
+}
+
+std::string stock_text(const project::StockInput& input) {
+    const Vec3& at = input.position;
+    return input.file.empty() ? input.shape
+                              : fmt::format("{}@{},{},{}",
+                                            input.file.string(),
+                                            shortest(at.x()),
+                                            shortest(at.y()),
+                                            shortest(at.z()));
+}
+
+project::StockInput with_stock(project::StockInput input, std::string_view text) {
+    const simulation::StockText parsed = simulation::parse_stock(text);
+    input.around_part = false;
+    input.file = parsed.mesh_file;
+    input.position = parsed.shift;
+    if (parsed.stock) {
+        input.shape = text;
+    }
+    return input;
 }
 
 std::string with_whole_path(std::string_view text, const std::filesystem::path& folder) {

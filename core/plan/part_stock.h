@@ -3,6 +3,7 @@
 
 #include "core/base/progress.h"
 #include "core/geometry/surface.h"
+#include "core/project/stock_input.h"
 #include "core/simulation/stock.h"
 
 #include <filesystem>
@@ -18,6 +19,13 @@ struct NamedStock {
 
 /// The box of all faces, and `allowance` more on every side.
 [[nodiscard]] NamedStock stock_around(const geometry::Surface& surface, double allowance);
+
+/// The box, cylinder, tube or mesh of a project, as core/simulation/spec_text.h has it, also where the box
+/// around the part is chosen.
+[[nodiscard]] std::string stock_text(const project::StockInput& input);
+
+/// `input` with what `text` names in place of the box around the part. Throws Error for what is no stock.
+[[nodiscard]] project::StockInput with_stock(project::StockInput input, std::string_view text);
 
 /// A stock's text with the whole path of the mesh file that it names: a relative one is beside the files of
 /// `folder`. Texts without a file stay. Throws Error for what is no stock, for a file that is not there, and

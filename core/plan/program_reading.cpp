@@ -2,9 +2,11 @@
 
 #include "core/gcode/preview.h"
 #include "core/gcode_programs/machine_program.h"
+#include "core/gcode_programs/tool_calls.h"
 #include "core/jobs/job.h"
 #include "core/kinematics/machine_file.h"
 #include "core/motion/planner.h"
+#include "core/plan/internal/failure.h"
 #include "core/project/assets.h"
 
 #include <fmt/format.h>
@@ -49,6 +51,30 @@ std::string moved_axes(const program::Program& program) {
         letters += moves ? std::string(1, program.axes[n].letter) : "";
     }
     return letters;
+}
+
+Box3 cut_box(const gcode::PreviewPath& path) {
+    constexpr double least_way = 1e-3; // mm, across Z
+    Box3 box;
+    for (const auto& chunk : path.chunks) {
+        for (std::size_t n = 1; n < chunk->points.size(); ++n) {
+            const Vec3 from = chunk->points[n - 1].position(), to = chunk->points[n].position();
+            if (chunk->points[n].kind() == gcode::PathKind::feed &&
+                (to - from).head<2>().norm() > least_way) {
+                box.extend(from);
+                box.extend(to);
+            }
+        }
+    }
+    return box;
+}
+
+/// What stops a simulation of the material, before its tools are asked for.
+std::optional<Diagnostic> unsimulated(const gcode::MachineProgram& made) {
+    if (!made.faults.empty()) {
+        return made.faults.front();
+    }
+    return made.lost.empty() ? std::nullopt : std::optional(made.lost.front());
 }
 
 } // namespace
@@ -137,8 +163,9 @@ void ProgramReading::plan(const Progress& progress) {
     }
     progress.report(0.0, "Planning " + now_.file.filename().string());
     gcode::MachineProgramBuilder builder(*now_.machine, now_.file);
+    gcode::ToolCallRecorder recorder(builder);
     gcode::Interpreter program(
-        now_.text->text(), now_.file, settings_for(now_.file, now_.choice, now_.machine.get()), builder);
+        now_.text->text(), now_.file, settings_for(now_.file, now_.choice, now_.machine.get()), recorder);
     auto motion = std::make_shared<PlannedMotion>();
     gcode::Step step = 0;
     for (bool more = true; more; ++step) {
@@ -159,6 +186,11 @@ void ProgramReading::plan(const Progress& progress) {
     motion->listing =
         std::make_shared<const program::Listing>(gcode::listing_of(now_.text->text(), made.program));
     motion->moved_axes = moved_axes(made.program);
+    motion->unsimulated = unsimulated(made);
+    if (!motion->unsimulated) {
+        motion->unsimulated = failure_of([&] { motion->tool_calls = recorder.calls(now_.file); });
+    }
+    motion->cut_box = cut_box(now_.path);
     motion->program = std::make_shared<const program::Program>(std::move(made.program));
     jobs::Job job;
     job.machine = now_.machine;

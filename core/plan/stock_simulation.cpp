@@ -35,6 +35,9 @@ program::Program with_lines(program::Program program, const program::Listing& li
 
 /// Throws Error for a point, which removes nothing.
 std::vector<simulation::ToolUse> tools_of(const StockJob& job) {
+    if (job.file) {
+        return job.file->tools;
+    }
     const toolpath::Tool tool = project::tool_of(job.project.tool);
     if (!tool.cutter) {
         throw Error("The tool is a point and removes nothing.", {}, "Choose a cutter in Toolpath > Tool.");
@@ -43,14 +46,18 @@ std::vector<simulation::ToolUse> tools_of(const StockJob& job) {
         {.first_block = 0, .number = job.project.tool.number, .body = *tool.cutter, .holder = tool.holder}};
 }
 
+bool is_flat(const simulation::Stock& stock) {
+    constexpr double flat = 1e-6; // mm
+    return simulation::bounds(stock).sizes().minCoeff() < flat;
+}
+
 /// Throws Error for the box around a flat part that is not larger than the part.
 NamedStock stock_of(const StockJob& job, const Progress& progress) {
     if (!job.settings.stock.empty()) {
         return stock_from(job.settings.stock, progress);
     }
     NamedStock around = stock_around(*job.surface, job.settings.allowance);
-    constexpr double flat = 1e-6; // mm
-    if (simulation::bounds(around.stock).sizes().minCoeff() < flat) {
+    if (is_flat(around.stock)) {
         throw Error("The part is flat.", {}, "Choose an allowance above 0.");
     }
     return around;
@@ -141,23 +148,46 @@ StockForecast forecast_of(const simulation::Stock& stock, std::optional<double> 
     return forecast;
 }
 
+StockForecast
+forecast_of(const geometry::Surface* surface, const StockSettings& settings, const Progress& progress) {
+    if (settings.stock.empty() && surface == nullptr) {
+        throw Error("there is no part");
+    }
+    const simulation::Stock stock = settings.stock.empty() ? stock_around(*surface, settings.allowance).stock
+                                                           : stock_from(settings.stock, progress).stock;
+    if (is_flat(stock)) {
+        StockForecast flat;
+        flat.fault = "The part is flat, and so is the box around it. Choose an allowance above 0.";
+        return flat;
+    }
+    return forecast_of(stock, settings.resolution);
+}
+
 /// Its parts refer to each other.
 struct StockSimulation::Parts {
     Parts(StockJob wanted, const Progress& progress)
         : job(std::move(wanted)), program(with_lines(*job.program, *job.listing)),
-          stock(stock_of(job, progress)), forecast(forecast_of(stock.stock, job.settings.resolution)),
-          input{.program = program,
-                .machine = job.cutting_setup->machine,
-                .tools = tools_of(job),
-                .stock = stock.stock,
-                .resolution = forecast.resolution,
-                .most_bytes = forecast.most_bytes},
-          simulator(input, simulation::Rewind::by_keyframes, progress), heights(*job.cutting_setup) {}
+          stock(stock_of(job, progress)),
+          forecast(forecast_of(stock.stock, job.settings.resolution)), input{.program = program,
+                                                                             .machine = job.machine(),
+                                                                             .tools = tools_of(job),
+                                                                             .stock = stock.stock,
+                                                                             .resolution =
+                                                                                 forecast.resolution,
+                                                                             .most_bytes =
+                                                                                 forecast.most_bytes},
+          simulator(input, simulation::Rewind::by_keyframes, progress) {
+        if (job.cutting_setup) {
+            heights.emplace(*job.cutting_setup);
+        }
+    }
 
     [[nodiscard]] simulation::CollisionReport collisions(int first_block, const Progress& progress) const {
-        const kinematics::MachineModel& machine = job.cutting_setup->machine;
-        std::vector<simulation::CollisionBody> bodies =
-            face_bodies(machine, job.project.surface, *job.surface);
+        const kinematics::MachineModel& machine = job.machine();
+        std::vector<simulation::CollisionBody> bodies;
+        if (job.surface) {
+            bodies = face_bodies(machine, job.project.surface, *job.surface);
+        }
         for (simulation::CollisionBody& body : simulation::machine_collision_bodies(
                  machine,
                  job.machine_solids ? std::span(*job.machine_solids)
@@ -166,16 +196,18 @@ struct StockSimulation::Parts {
         }
         bodies.push_back(simulation::collision_body(
             machine, "stock", simulation::BodyRole::stock, simulation::surface_of(stock.stock), true));
-        const simulation::ToolUse& tool = input.tools.front();
-        return simulation::check_collisions(
-            {.program = program,
-             .machine = machine,
-             .tools = {{tool.first_block, tool.body, tool.shank, tool.holder}},
-             .bodies = std::move(bodies),
-             .first_block = first_block,
-             .clearance = job.settings.clearance,
-             .part_allowance = job.settings.tolerance},
-            progress);
+        std::vector<simulation::CollisionTool> tools;
+        for (const simulation::ToolUse& use : input.tools) {
+            tools.push_back({use.first_block, use.body, use.shank, use.holder});
+        }
+        return simulation::check_collisions({.program = program,
+                                             .machine = machine,
+                                             .tools = std::move(tools),
+                                             .bodies = std::move(bodies),
+                                             .first_block = first_block,
+                                             .clearance = job.settings.clearance,
+                                             .part_allowance = job.settings.tolerance},
+                                            progress);
     }
 
     StockJob job;
@@ -184,7 +216,7 @@ struct StockSimulation::Parts {
     StockForecast forecast;
     simulation::SimulationInput input;
     simulation::Simulator simulator;
-    PartHeights heights;
+    std::optional<PartHeights> heights; ///< nullopt without a part
 };
 
 StockSimulation::StockSimulation(StockJob job, const Progress& progress) {
@@ -199,7 +231,9 @@ StockSimulation::StockSimulation(StockJob job, const Progress& progress) {
     result->cell = parts.simulator.field().cell();
     result->cut = parts.simulator.found();
     progress.report(0.6, "Simulating: comparing with the part");
-    result->points = part_surface(*parts.job.cutting_setup).points;
+    if (parts.job.cutting_setup) {
+        result->points = part_surface(*parts.job.cutting_setup).points;
+    }
     result->deviations = simulation::deviations(parts.input,
                                                 parts.simulator.field(),
                                                 result->cut.first_block,
@@ -208,10 +242,15 @@ StockSimulation::StockSimulation(StockJob job, const Progress& progress) {
     progress.report(0.8, "Simulating: looking for collisions");
     const simulation::CollisionReport collisions =
         parts.collisions(result->cut.first_block, progress.part(0.8, 1.0));
-    result->events = events_of(result->cut, collisions, parts.job.cutting_setup->machine);
+    result->events = events_of(result->cut, collisions, parts.job.machine());
     result->unchecked = collisions.unchecked;
     result->warnings = simulation::warnings_of(result->cut, parts.input.tools, result->cell.maxCoeff());
-    result->engagement = simulation::summary_of(simulation::engagements(parts.program, result->cut));
+    if (parts.job.file) {
+        result->warnings.insert(
+            result->warnings.begin(), parts.job.file->warnings.begin(), parts.job.file->warnings.end());
+    }
+    result->feeds = simulation::engagements(parts.program, result->cut);
+    result->engagement = simulation::summary_of(result->feeds);
     result_ = std::move(result);
 }
 
@@ -223,7 +262,11 @@ StockPicture StockSimulation::picture_before(int block, const Progress& progress
     parts.simulator.advance_to(block, progress);
     StockPicture picture{.result = result_, .block = block, .mesh = {}, .heights = {}};
     picture.mesh = simulation::mesh_of(parts.simulator.field(), most_triangles, progress);
-    picture.heights = parts.heights.of(picture.mesh, progress);
+    if (parts.heights) {
+        picture.heights = parts.heights->of(picture.mesh, progress);
+    } else {
+        picture.heights.resize(picture.mesh.points.size());
+    }
     return picture;
 }
 

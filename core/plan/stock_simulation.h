@@ -37,16 +37,28 @@ struct StockSettings {
 /// only.
 [[nodiscard]] bool give_the_same(const StockSettings& a, StockSettings b);
 
-/// Of one plan; the parts are not null, and the program is that of the project's tool.
+/// What a G-code file is simulated with, which has no part.
+struct FileSetup {
+    std::shared_ptr<const kinematics::MachineModel> machine; ///< not null
+    std::vector<simulation::ToolUse> tools;                  ///< in the order of the blocks
+    std::vector<Diagnostic> warnings;                        ///< of reading it
+};
+
+/// Of one plan, whose program is that of the project's tool; or of a G-code file.
 struct StockJob {
-    project::Project project;
-    std::shared_ptr<const geometry::Surface> surface;
-    std::shared_ptr<const CuttingSetup> cutting_setup;
-    std::shared_ptr<const program::Program> program;
-    std::shared_ptr<const program::Listing> listing;
+    project::Project project;                          ///< of a plan
+    std::shared_ptr<const geometry::Surface> surface;  ///< not null of a plan
+    std::shared_ptr<const CuttingSetup> cutting_setup; ///< not null of a plan
+    std::shared_ptr<const program::Program> program;   ///< not null
+    std::shared_ptr<const program::Listing> listing;   ///< not null
     /// Bodies of the machine as the window draws them; null: the simple ones of its file.
     std::shared_ptr<const std::vector<geometry::SolidBody>> machine_solids;
     StockSettings settings;
+    std::optional<FileSetup> file{}; ///< nullopt: of a plan
+
+    [[nodiscard]] const kinematics::MachineModel& machine() const {
+        return file ? *file->machine : cutting_setup->machine;
+    }
 };
 
 /// What the field of a stock takes, before anything is made.
@@ -54,8 +66,15 @@ struct StockForecast {
     double resolution = 0.0;    ///< the longest edge of a cell
     std::size_t bytes = 0;      ///< of the field
     std::size_t most_bytes = 0; ///< that it may have; more is refused
+    std::string fault;          ///< why the stock cannot be cut, as a sentence; empty if it can
+
+    friend bool operator==(const StockForecast&, const StockForecast&) = default;
 };
 [[nodiscard]] StockForecast forecast_of(const simulation::Stock& stock, std::optional<double> resolution);
+/// Of the stock that `settings` name; `surface`: of the box around the part. A mesh is read from its file.
+/// Throws Error, Cancelled.
+[[nodiscard]] StockForecast
+forecast_of(const geometry::Surface* surface, const StockSettings& settings, const Progress& progress);
 
 /// Something that may not happen, on one block or on several in a row.
 enum class StockEventKind : std::uint8_t { collision, rapid_in_stock, spindle_off, axis_limit, near_miss };
@@ -75,10 +94,11 @@ struct StockResult {
     StockJob job;
     simulation::Stock stock;
     std::string stock_text;
-    Vec3 cell = Vec3::Zero();                      ///< edges of a cell
-    simulation::Simulation cut;                    ///< without its field
-    std::vector<simulation::PartPoint> points;     ///< of the machined face, that were looked at
+    Vec3 cell = Vec3::Zero();                  ///< edges of a cell
+    simulation::Simulation cut;                ///< without its field
+    std::vector<simulation::PartPoint> points; ///< of the machined face, that were looked at; of a file none
     std::vector<simulation::Deviation> deviations; ///< one per point
+    std::vector<simulation::FeedEngagement> feeds; ///< in the order of the blocks
     simulation::EngagementSummary engagement;
     std::vector<StockEvent> events; ///< collisions first, near misses last, each in the order of the blocks
     std::vector<std::string> unchecked; ///< of collisions, a sentence each

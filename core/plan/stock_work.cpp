@@ -8,11 +8,11 @@
 
 namespace millwright::plan {
 
-/// Two threads: what was found last can be looked at along the timeline while the next one is worked out.
+/// Three threads: what was found last can be looked at along the timeline while the next one is worked out.
 class StockWorker::Worker {
 public:
     explicit Worker(std::function<void()> wake)
-        : wake_(std::move(wake)), drawing_(wake_), simulating_(wake_) {}
+        : wake_(std::move(wake)), forecasting_(wake_), drawing_(wake_), simulating_(wake_) {}
 
     void request(StockJob job) {
         requested_ = job.program;
@@ -61,6 +61,18 @@ public:
         drawing_.append([this](const Progress& progress) { draw(progress); });
     }
 
+    void forecast(std::shared_ptr<const geometry::Surface> surface, StockSettings settings) {
+        forecasting_.replace(
+            [this, surface = std::move(surface), settings = std::move(settings)](const Progress& progress) {
+                std::optional<StockForecast> found;
+                // The field that has the stock's text says what is wrong with it.
+                (void)failure_of([&] { found = forecast_of(surface.get(), settings, progress); });
+                progress.check();
+                const std::scoped_lock lock(mutex_);
+                view_.forecast = std::move(found);
+            });
+    }
+
     [[nodiscard]] std::shared_ptr<const program::Program> requested() const { return requested_; }
     [[nodiscard]] StockView view() const {
         const std::scoped_lock lock(mutex_);
@@ -70,6 +82,7 @@ public:
     void wait_idle() const {
         simulating_.wait_idle();
         drawing_.wait_idle();
+        forecasting_.wait_idle();
     }
 
 private:
@@ -100,10 +113,10 @@ private:
     std::shared_ptr<const program::Program> requested_; ///< of the owner's thread
     mutable std::mutex mutex_;                          ///< guards what follows
     StockView view_;
-    std::shared_ptr<StockSimulation> simulation_; ///< used by the thread that draws
-    std::optional<int> wanted_;                   ///< the block that a picture was last asked for
-    bool waits_ = false;                          ///< a job for it has not begun yet
-    Background drawing_, simulating_;             // last: their threads end before the rest goes
+    std::shared_ptr<StockSimulation> simulation_;   ///< used by the thread that draws
+    std::optional<int> wanted_;                     ///< the block that a picture was last asked for
+    bool waits_ = false;                            ///< a job for it has not begun yet
+    Background forecasting_, drawing_, simulating_; // last: their threads end before the rest goes
 };
 
 StockWorker::StockWorker(std::function<void()> wake) : worker_(std::make_unique<Worker>(std::move(wake))) {}
@@ -124,6 +137,10 @@ void StockWorker::release() {
 
 void StockWorker::show(int block) {
     worker_->show(block);
+}
+
+void StockWorker::forecast(std::shared_ptr<const geometry::Surface> surface, StockSettings settings) {
+    worker_->forecast(std::move(surface), std::move(settings));
 }
 
 std::shared_ptr<const program::Program> StockWorker::requested() const {

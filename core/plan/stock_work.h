@@ -17,6 +17,7 @@ struct StockView {
     std::shared_ptr<const StockPicture> picture; ///< the newest, of `result`
     std::optional<Diagnostic> failure;           ///< why the last one ended without a result
     std::optional<Diagnostic> picture_failure;   ///< why there is no newer picture
+    std::optional<StockForecast> forecast; ///< of what was asked for last; nullopt: not known yet, or never
 };
 
 /// One simulation at a time, on a thread of its own. Called from the owner's thread; every member but
@@ -37,6 +38,10 @@ public:
     void release();
     /// From now on the picture is of what the blocks before `block` have left of the last result.
     void show(int block);
+
+    /// Works out what a simulation would take, in the background: StockView::forecast. What is known of an
+    /// earlier one stays until then. `surface`: of the box around the part; may be null for other stocks.
+    void forecast(std::shared_ptr<const geometry::Surface> surface, StockSettings settings);
 
     /// The program of the job that came last; null before the first.
     [[nodiscard]] std::shared_ptr<const program::Program> requested() const;

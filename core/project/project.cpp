@@ -279,6 +279,21 @@ void check_weight(Faults& faults, const EllipticInput& input) {
     }
 }
 
+/// What the shape says is found when it is used.
+void check_stock(Faults& faults, const StockInput& stock) {
+    if (!(stock.allowance_mm >= 0.0 && stock.allowance_mm <= largest_allowance_mm)) {
+        faults.push_back(fmt::format(
+            "stock/allowance_mm: {} is not between 0 and {}", stock.allowance_mm, largest_allowance_mm));
+    }
+    if (stock.shape.empty()) {
+        faults.emplace_back("stock/shape: no stock is named");
+    }
+    if (!within(stock.position, farthest_point_mm)) {
+        faults.push_back(
+            fmt::format("stock/position: farther than {} mm from the origin", farthest_point_mm));
+    }
+}
+
 void check_plot(Faults& faults, const PlotSettings& set) {
     check<PlotSettings>(faults, "plot", set, plot_numbers());
     check<plot::Level>(faults, "plot/level", set.level, level_numbers());
@@ -345,6 +360,7 @@ std::vector<std::string> faults_of(const Project& project) {
     check<ToolpathInput>(faults, "toolpath", project.toolpath, toolpath_numbers());
     check_sequencing(faults, project);
     check<ProgramInput>(faults, "program", project.program, program_numbers());
+    check_stock(faults, project.stock);
     check_plot(faults, project.plot.settings);
     check_arm(faults, project.arm);
     return faults;

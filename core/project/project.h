@@ -15,6 +15,7 @@
 #include "core/project/grid_methods/grid_method.h"
 #include "core/project/plot_input.h"
 #include "core/project/processor_input.h"
+#include "core/project/stock_input.h"
 #include "core/project/tool_input.h"
 #include "core/toolpath/sequenced_path.h"
 
@@ -211,8 +212,9 @@ struct Project {
     ToolpathInput toolpath;
     SequencingInput sequencing;
     ProgramInput program;
-    PlotInput plot; ///< beside the surface
-    ArmInput arm;   ///< beside both
+    StockInput stock; ///< of its simulation; no plan depends on it
+    PlotInput plot;   ///< beside the surface
+    ArmInput arm;     ///< beside both
     ProcessorInput processor;
 
     friend bool operator==(const Project&, const Project&) = default;

@@ -123,6 +123,32 @@ ProgramInput read_program(const JsonValue& value) {
     return result;
 }
 
+StockInput stock_of(const JsonValue& value) {
+    value.expect_only({"around_part", "allowance_mm", "shape", "file", "position"});
+    StockInput stock;
+    read_flag(value, "around_part", stock.around_part);
+    if (const auto allowance = value.find("allowance_mm")) {
+        stock.allowance_mm = allowance->number(0.0, largest_allowance_mm);
+    }
+    if (const auto shape = value.find("shape")) {
+        stock.shape = shape->text();
+        if (stock.shape.empty()) {
+            shape->fail("no stock is named",
+                        "write a box, cylinder or tube, such as box:100,100,20@-50,-50,-20");
+        }
+    }
+    if (const auto file = value.find("file")) {
+        stock.file = file->text();
+        if (stock.file.empty()) {
+            file->fail("the name is empty", "leave \"file\" out for a stock without a mesh");
+        }
+    }
+    if (const auto position = value.find("position")) {
+        stock.position = point_of(*position);
+    }
+    return stock;
+}
+
 /// A name in a project file means a file beside it.
 fs::path from_folder(const fs::path& file, const fs::path& folder) {
     return file.empty() ? file : (folder / file).lexically_normal();
@@ -149,6 +175,7 @@ Project project(const JsonValue& root, const fs::path& folder) {
                       "toolpath",
                       "sequencing",
                       "program",
+                      "stock",
                       "plot",
                       "arm",
                       "processor"});
@@ -171,6 +198,10 @@ Project project(const JsonValue& root, const fs::path& folder) {
     }
     if (const auto value = root.find("program")) {
         result.program = read_program(*value);
+    }
+    if (const auto value = root.find("stock")) {
+        result.stock = stock_of(*value);
+        result.stock.file = from_folder(result.stock.file, folder);
     }
     if (const auto value = root.find("plot")) {
         result.plot = plot_of(*value);
@@ -235,6 +266,20 @@ Json program_input_json(const ProgramInput& program) {
     return json;
 }
 
+Json stock_json(const StockInput& stock) {
+    Json json;
+    json["around_part"] = stock.around_part;
+    json["allowance_mm"] = stock.allowance_mm;
+    json["shape"] = stock.shape;
+    if (!stock.file.empty()) {
+        json["file"] = stock.file.generic_string();
+    }
+    if (stock.position != Vec3::Zero()) {
+        json["position"] = point_json(stock.position);
+    }
+    return json;
+}
+
 } // namespace
 
 Project read_project(const fs::path& file) {
@@ -266,6 +311,9 @@ std::string project_text(const Project& project) {
         json["sequencing"] = sequencing_input_json(project.sequencing);
     }
     json["program"] = program_input_json(project.program);
+    if (!(project.stock == StockInput{})) {
+        json["stock"] = stock_json(project.stock);
+    }
     if (!(project.plot == PlotInput{})) {
         json["plot"] = json_of(project.plot);
     }
@@ -282,6 +330,7 @@ std::string project_text(const Project& project) {
 std::string write_project(const Project& project, const fs::path& file) {
     Project near = project;
     near.plot.file = to_folder(project.plot.file, file.parent_path());
+    near.stock.file = to_folder(project.stock.file, file.parent_path());
     std::string text = project_text(near);
     write_file(file, text);
     return text;

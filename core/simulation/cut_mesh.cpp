@@ -241,6 +241,23 @@ CutMesh mesh_of(const DexelField& field, std::size_t most_triangles, const Progr
     return Mesher(field, stride).mesh(progress);
 }
 
+std::vector<Vec3> normals_of(const CutMesh& mesh) {
+    std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
+    const auto point = [&](int k) { return mesh.points[static_cast<std::size_t>(k)]; };
+    for (const auto& triangle : mesh.triangles) {
+        const Vec3 a = point(triangle[0]);
+        const Vec3 doubled = (point(triangle[1]) - a).cross(point(triangle[2]) - a);
+        for (const int corner : triangle) {
+            normals[static_cast<std::size_t>(corner)] += doubled;
+        }
+    }
+    for (Vec3& normal : normals) {
+        const double length = normal.norm();
+        normal = length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
+    }
+    return normals;
+}
+
 std::string stl_of(const CutMesh& mesh) {
     std::string bytes = "Millwright: what is left of the stock, in mm";
     constexpr std::size_t header = 80, a_triangle = 50;

@@ -25,6 +25,9 @@ struct CutMesh {
 /// With about so many triangles at most; lattice points are left out until it fits. Throws Cancelled.
 [[nodiscard]] CutMesh mesh_of(const DexelField& field, std::size_t most_triangles, const Progress& progress);
 
+/// One per point: the mean of those of the triangles around, by area.
+[[nodiscard]] std::vector<Vec3> normals_of(const CutMesh& mesh);
+
 /// A binary STL file.
 [[nodiscard]] std::string stl_of(const CutMesh& mesh);
 /// A binary PLY file with a colour a point, 0 to 255.

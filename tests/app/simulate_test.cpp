@@ -1,3 +1,4 @@
+#include "tests/app/box_file.h"
 #include "tests/app/program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -82,37 +83,6 @@ TEST(SimulateCommand, EndsWithCodeOneForARapidThroughMaterial) {
     EXPECT_EQ(report.at("findings")[0].at("line"), 11);
     EXPECT_EQ(report.at("findings")[0].at("kind"), "rapid-in-stock");
     EXPECT_NEAR(report.at("findings")[0].at("removed_mm3").get<double>(), 120.0, 12.0);
-}
-
-/// A box as an STL file.
-fs::path box_file(const fs::path& file, const std::array<double, 3>& low, const std::array<double, 3>& high) {
-    constexpr std::array<std::array<unsigned, 3>, 12> triangles{{{0, 2, 3},
-                                                                 {0, 3, 1},
-                                                                 {4, 5, 7},
-                                                                 {4, 7, 6},
-                                                                 {0, 1, 5},
-                                                                 {0, 5, 4},
-                                                                 {2, 6, 7},
-                                                                 {2, 7, 3},
-                                                                 {0, 4, 6},
-                                                                 {0, 6, 2},
-                                                                 {1, 3, 7},
-                                                                 {1, 7, 5}}};
-    std::ofstream out(file);
-    out << "solid box\n";
-    for (const auto& triangle : triangles) {
-        out << "facet normal 0 0 0\nouter loop\n";
-        for (const unsigned corner : triangle) {
-            out << "vertex";
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                out << ' ' << ((corner >> axis & 1U) != 0 ? high : low)[axis];
-            }
-            out << '\n';
-        }
-        out << "endloop\nendfacet\n";
-    }
-    out << "endsolid box\n";
-    return file;
 }
 
 TEST(SimulateCommand, NamesACollisionWithAFixtureAndItsLine) {

@@ -1,7 +1,11 @@
 // The simulation of the stock.
+#include "core/base/error.h"
+#include "core/base/sentences.h"
 #include "ui/actions/app_controller.h"
 #include "ui/actions/internal/simple_action.h"
 #include "ui/workspaces/stock_workspace.h"
+
+#include <string>
 
 namespace millwright::actions {
 
@@ -11,13 +15,52 @@ namespace {
 
 using widgets::Permission;
 
+/// The stock that is chosen.
+Permission fits(const FrameState& now) {
+    const auto& forecast = now.stock.forecast();
+    if (forecast && !forecast->fault.empty()) {
+        return Permission::refused(forecast->fault);
+    }
+    return forecast && forecast->bytes > forecast->most_bytes
+               ? Permission::refused("The stock does not fit into the memory at this resolution. Choose a "
+                                     "coarser one.")
+               : Permission{};
+}
+
+/// "Line 5: The program calls tool 3, whose shape is not known. Enter its shape, such as flat:6."
+std::string refusal_of(const Diagnostic& diagnostic) {
+    const std::string line =
+        diagnostic.place.line > 0 ? "Line " + std::to_string(diagnostic.place.line) + ": " : std::string();
+    return with_sentence(line + as_sentence(diagnostic.message), as_sentence(diagnostic.hint));
+}
+
+Permission can_simulate_file(const FrameState& now) {
+    const FileStock& chosen = now.view_state.stock.file;
+    if (!now.opened->motion) {
+        return Permission::refused(now.opened->no_motion.empty() ? "The file is still being read."
+                                                                 : now.opened->no_motion);
+    }
+    if (now.opened->motion->unsimulated) {
+        return Permission::refused(refusal_of(*now.opened->motion->unsimulated));
+    }
+    if (const auto missing = plan::missing_tool(*now.opened, chosen.tools)) {
+        return Permission::refused(refusal_of(*missing));
+    }
+    if (wanted_stock(now).stock.empty()) {
+        return Permission::refused("No stock is chosen. Enter its size and corner.");
+    }
+    return fits(now);
+}
+
 Permission can_simulate_stock(const FrameState& now) {
     if (now.stock.activity().busy) {
         return Permission::refused("A simulation is running.");
     }
     if (now.in_file()) {
-        return Permission::refused("The window simulates the program of the project. For a G-code file use "
-                                   "\"millwright simulate\".");
+        return can_simulate_file(now);
+    }
+    if (now.view_state.workspace == Workspace::plot) {
+        return Permission::refused("There is no program to simulate.");
     }
     if (now.project.tool.cutter == toolpath::CutterKind::point) {
         return Permission::refused("The tool is a point. Choose a cutter in Toolpath > Tool.");
@@ -28,11 +71,17 @@ Permission can_simulate_stock(const FrameState& now) {
     if (!now.program_is_final()) {
         return Permission::refused("The program is still being computed.");
     }
-    const auto& forecast = now.stock.forecast();
-    return forecast && forecast->bytes > forecast->most_bytes
-               ? Permission::refused("The stock does not fit into the memory at this resolution. Choose a "
-                                     "coarser one.")
-               : Permission{};
+    return fits(now);
+}
+
+Permission can_show(const FrameState& now) {
+    return stock_is_current(now) ? Permission{} : Permission::refused("Simulate this program first.");
+}
+
+Permission can_export(const FrameState& now) {
+    return stock_is_current(now) && now.stock.view().picture
+               ? Permission{}
+               : Permission::refused("Simulate this program first.");
 }
 
 Permission can_cancel_stock(const FrameState& now) {
@@ -56,6 +105,38 @@ template <bool gouge> Permission can_go_to_worst(const FrameState& now) {
 
 template <bool gouge> void go_to_worst(ActionContext& context) {
     go_to_block(context.now, context.view_state, worst_block<gouge>(context.now), 1.0);
+}
+
+/// What a person does with a result.
+void add_shown_stock_actions(Actions& actions) {
+    add(actions,
+        {"simulation.export",
+         "Simulation",
+         "Export the cut part",
+         "Writes the remaining material at the current playback position as STL, PLY or glb, with the "
+         "colours of the comparison.",
+         "",
+         icons::save},
+        can_export,
+        [](ActionContext& context) { context.view_state.file_prompt = FilePrompt::export_stock; });
+    add(actions,
+        {"simulation.go_to_gouge",
+         "Simulation",
+         "Go to the largest gouge",
+         "Moves the timeline to the block that cuts deepest into the part.",
+         "",
+         icons::warning},
+        can_go_to_worst<true>,
+        go_to_worst<true>);
+    add(actions,
+        {"simulation.go_to_excess",
+         "Simulation",
+         "Go to the largest excess",
+         "Moves the timeline to the block that leaves the most material on the part.",
+         "",
+         icons::surface},
+        can_go_to_worst<false>,
+        go_to_worst<false>);
 }
 
 } // namespace
@@ -85,31 +166,14 @@ void add_stock_actions(Actions& actions) {
         {"simulation.show",
          "Simulation",
          "Show the remaining stock",
-         "Draws the material that the simulation has left at the current playback position, in place of the "
-         "surface.",
+         "Draws the material that the simulation has left at the current playback position. It hides the "
+         "surface and the colours on it.",
          "",
          icons::eye},
-        always,
+        can_show,
         [](ActionContext& context) { context.view_state.stock.shown = !context.view_state.stock.shown; },
         [](const FrameState& now) { return now.view_state.stock.shown; });
-    add(actions,
-        {"simulation.go_to_gouge",
-         "Simulation",
-         "Go to the largest gouge",
-         "Moves the timeline to the block that cuts deepest into the part.",
-         "",
-         icons::warning},
-        can_go_to_worst<true>,
-        go_to_worst<true>);
-    add(actions,
-        {"simulation.go_to_excess",
-         "Simulation",
-         "Go to the largest excess",
-         "Moves the timeline to the block that leaves the most material on the part.",
-         "",
-         icons::surface},
-        can_go_to_worst<false>,
-        go_to_worst<false>);
+    add_shown_stock_actions(actions);
 }
 
 } // namespace millwright::actions

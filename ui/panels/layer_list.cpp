@@ -1,6 +1,7 @@
 #include "ui/panels/layer_list.h"
 
 #include "ui/actions/layer_actions.h"
+#include "ui/workspaces/stock_workspace.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/menus.h"
 
@@ -20,6 +21,17 @@ void layer_rows(Ui& ui, const FrameState& now, ActionQueue& ask, const actions::
         if (widgets::menu_eye(
                 ui, which.id, info.title, action.is_on(now), info.tip, action.permission(now))) {
             ask.run(std::string(info.id));
+        }
+    }
+    if (shown == Of::part) {
+        const actions::Action& stock = catalogue.find("simulation.show");
+        if (widgets::menu_eye(ui,
+                              "stock",
+                              "Remaining stock",
+                              stock.is_on(now) && actions::stock_is_current(now),
+                              stock.info().tip,
+                              stock.permission(now))) {
+            ask.run(std::string(stock.info().id));
         }
     }
     widgets::menu_line(ui);

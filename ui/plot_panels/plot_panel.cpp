@@ -6,6 +6,7 @@
 #include "ui/panels/fields.h"
 #include "ui/plot_panels/level_fields.h"
 #include "ui/plot_panels/plot_fields.h"
+#include "ui/toolpath_panels/simulation_fields.h"
 #include "ui/viewport/pen_colors.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"
@@ -318,6 +319,9 @@ void PlotPanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
         stroke_fields(ui, now, ask);
     }
     work_fields(ui, now, ask);
+    if (now.in_file()) {
+        simulation_fields(ui, now, ask, catalogue_);
+    }
 }
 
 void PlotPanel::draw_materials(Ui& ui, const FrameState& now, ActionQueue& ask) const {

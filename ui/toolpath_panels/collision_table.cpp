@@ -93,6 +93,7 @@ void collision_table(Ui& ui, const FrameState& now, ActionQueue& ask) {
         ask.show([time](actions::ViewState& view_state) {
             view_state.playback.playing = false;
             view_state.playback.time = time;
+            view_state.file.step.reset(); // the motion says where one is
         });
     }
 }

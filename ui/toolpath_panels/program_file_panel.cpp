@@ -8,6 +8,7 @@
 #include "ui/panels/fields.h"
 #include "ui/panels/lines.h"
 #include "ui/toolpath_panels/modal_text.h"
+#include "ui/toolpath_panels/simulation_fields.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>
@@ -87,6 +88,7 @@ std::string limit_text(const motion::Cause& limit, const program::Program& progr
 void ProgramFilePanel::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     draw_file(ui, now, ask);
     draw_faults(ui, now, ask);
+    simulation_fields(ui, now, ask, catalogue_);
     if (const auto section = ui.section("position", "Axis positions at this line")) {
         axis_positions(ui, now);
     }

@@ -3,13 +3,17 @@
 #include "core/base/error.h"
 #include "core/base/sentences.h"
 #include "core/base/text.h"
+#include "core/plan/file_setup.h"
+#include "core/plan/named_tool.h"
 #include "core/plan/part_stock.h"
 #include "core/simulation/spec_text.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
 #include "ui/toolpath_panels/simulation_notices.h"
-#include "ui/widgets/notices.h"
 #include "ui/workspaces/stock_workspace.h"
+#include "ui/toolpath_panels/deviation_histogram.h"
+#include "ui/toolpath_panels/section_fields.h"
+#include "ui/widgets/notices.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +21,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace millwright::panels {
 
@@ -54,48 +60,100 @@ void setting(Ui& ui,
     }
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.empty() ? file : std::filesystem::absolute(file).parent_path();
+}
+
+/// With the whole path of its mesh file, if it has one.
+std::optional<std::string>
+stock_text_field(Ui& ui, const std::string& text, const std::filesystem::path& folder) {
+    const auto entered = ui.expression(
+        "stock_text",
+        "Size and corner",
+        text,
+        [folder](std::string_view t) { return stock_fault(t, folder); },
+        "In mm: box:LX,LY,LZ@X,Y,Z from its lowest corner; "
+        "cylinder:D,L@X,Y,Z and tube:D,BORE,L@X,Y,Z from the middle of the "
+        "lower end, along Z (or D,L,x along X); FILE.stl@X,Y,Z, with its path "
+        "from the folder of the file that is open");
+    return entered ? std::optional(plan::with_whole_path(*entered, folder)) : std::nullopt;
+}
+
 void stock_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
-    const actions::StockChoice& chosen = now.view_state.stock;
-    if (const auto kind = ui.choice("stock", "Stock", chosen.by_text ? 1 : 0, stocks)) {
-        ask.show(
-            [by_text = *kind == 1](actions::ViewState& view_state) { view_state.stock.by_text = by_text; });
+    const project::StockInput& input = now.project.stock;
+    if (const auto kind = ui.choice("stock", "Stock", input.around_part ? 0 : 1, stocks)) {
+        ask.edit("Change the stock",
+                 [around = *kind == 0](project::Project& draft) { draft.stock.around_part = around; });
     }
-    if (!chosen.by_text) {
-        setting(ui,
-                ask,
-                chosen.settings.allowance,
-                {"allowance",
-                 "Allowance",
-                 "mm",
-                 "Material on every side of the part's bounding box",
-                 0.0,
-                 1000.0,
-                 2.0,
-                 2},
-                [](StockSettings& s, double v) { s.allowance = v; });
+    if (input.around_part) {
+        const widgets::FieldInfo info{"allowance",
+                                      "Allowance",
+                                      "mm",
+                                      "Material on every side of the part's bounding box",
+                                      0.0,
+                                      project::largest_allowance_mm,
+                                      project::StockInput{}.allowance_mm,
+                                      2};
+        if (const auto value = ui.number(input.allowance_mm, info)) {
+            ask.edit("Change the allowance of the stock",
+                     [v = *value](project::Project& draft) { draft.stock.allowance_mm = v; });
+        }
         return;
     }
-    const std::filesystem::path& file = now.document.file;
-    const std::filesystem::path folder = file.empty() ? file : std::filesystem::absolute(file).parent_path();
-    if (const auto text = ui.expression(
-            "stock_text",
-            "Size and corner",
-            chosen.text,
-            [folder](std::string_view t) { return stock_fault(t, folder); },
-            "In mm: box:LX,LY,LZ@X,Y,Z from its lowest corner; "
-            "cylinder:D,L@X,Y,Z and tube:D,BORE,L@X,Y,Z from the middle of the "
-            "lower end, along Z (or D,L,x along X); FILE.stl@X,Y,Z, with its path "
-            "from the project's folder")) {
-        ask.show([t = plan::with_whole_path(*text, folder)](actions::ViewState& view_state) {
-            view_state.stock.text = t;
-        });
+    if (const auto text = stock_text_field(ui, plan::stock_text(input), folder_of(now.document.file))) {
+        ask.edit("Change the stock",
+                 [t = *text](project::Project& draft) { draft.stock = plan::with_stock(draft.stock, t); });
+    }
+}
+
+/// "" if the text names a tool for milling, and its file is there.
+std::string tool_fault(const std::string& text, const kinematics::MachineModel& machine) {
+    try {
+        std::vector<std::string> ignored;
+        (void)plan::named_tool(text, machine, ignored);
+        return {};
+    } catch (const Error& error) {
+        return with_sentence(as_sentence(error.diagnostic().message), as_sentence(error.diagnostic().hint));
+    }
+}
+
+/// Of a G-code file: stock and tools, which it does not have in it.
+void file_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
+    const plan::OpenedProgram& opened = *now.opened;
+    const actions::FileStock& chosen = now.view_state.stock.file;
+    if (!opened.motion || !opened.machine) {
+        return;
+    }
+    if (const auto text = stock_text_field(ui, chosen.stock, folder_of(opened.file))) {
+        ask.show([t = *text](actions::ViewState& view_state) { view_state.stock.file.stock = t; });
+    }
+    for (const gcode::ToolCall& call : plan::called_tools(opened)) {
+        const auto known = chosen.tools.find(call.number);
+        const std::string label =
+            call.line > 0 ? fmt::format("T{} (line {})", call.number, call.line) : std::string("Tool");
+        if (const auto text = ui.expression(
+                fmt::format("tool_{}", call.number),
+                label,
+                known != chosen.tools.end() ? known->second : std::string(),
+                [&machine = *opened.machine](std::string_view t) {
+                    return tool_fault(std::string(t), machine);
+                },
+                "In mm: flat:D, ball:D, bull:D:R with corner radius R, v:ANGLE:D, drill:D; :lLENGTH "
+                "behind it sets its length; or the whole path of a tool file")) {
+            ask.show([n = call.number, t = *text](actions::ViewState& view_state) {
+                view_state.stock.file.tools[n] = t;
+            });
+        }
     }
 }
 
 /// How finely, and the memory that this takes.
 void resolution_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const StockSettings& settings = now.view_state.stock.settings;
-    const auto& forecast = now.stock.forecast();
+    std::optional<plan::StockForecast> forecast = now.stock.forecast();
+    if (forecast && !forecast->fault.empty()) {
+        forecast.reset(); // nothing to be cut
+    }
     constexpr double usual = 0.5; // mm
     const double resolution = forecast ? forecast->resolution : settings.resolution.value_or(usual);
     if (const auto on =
@@ -134,20 +192,23 @@ void resolution_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
              "share it");
 }
 
+/// The tolerance is of the comparison with a part.
 void comparison_settings(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const StockSettings& settings = now.view_state.stock.settings;
-    setting(ui,
-            ask,
-            settings.tolerance,
-            {"tolerance",
-             "Tolerance",
-             "mm",
-             "Gouges beyond it are red, excess material beyond it is blue",
-             1e-4,
-             100.0,
-             0.1,
-             4},
-            [](StockSettings& s, double v) { s.tolerance = v; });
+    if (!now.in_file()) {
+        setting(ui,
+                ask,
+                settings.tolerance,
+                {"tolerance",
+                 "Tolerance",
+                 "mm",
+                 "Gouges beyond it are red, excess material beyond it is blue",
+                 1e-4,
+                 100.0,
+                 0.1,
+                 4},
+                [](StockSettings& s, double v) { s.tolerance = v; });
+    }
     setting(ui,
             ask,
             settings.clearance,
@@ -203,6 +264,11 @@ void stock_figures(Ui& ui, const FrameState& now, const plan::StockResult& resul
                          share_text(cut.stock_volume > 0.0 ? cut.removed_volume() / cut.stock_volume : 0.0)),
              "cm\u00b3",
              "Volume of the material that the whole program removes, and its share of the stock");
+    ui.value("left",
+             "Left",
+             fixed(cut.left_volume / mm3_per_cm3, 2),
+             "cm\u00b3",
+             "Volume of the material at the end of the program");
     const auto& comparison = now.stock.comparison();
     if (comparison) {
         worst_value(ui, result, "gouge", "Largest gouge", comparison->gouge);
@@ -217,6 +283,7 @@ void stock_figures(Ui& ui, const FrameState& now, const plan::StockResult& resul
                  share_text(comparison->gouged) + ", " + share_text(comparison->in_excess),
                  "%",
                  "Shares of the area beyond the tolerance");
+        deviation_histogram(ui, now.stock.histogram(), now.view_state.stock.settings.tolerance);
     }
     const simulation::EngagementSummary& engaged = result.engagement;
     ui.value("air",
@@ -252,7 +319,7 @@ void stock_outcome(Ui& ui,
         return;
     }
     if (!actions::stock_is_current(now)) {
-        ui.note("The program has changed since the last simulation.");
+        ui.note("The last simulation was of another program, or the program has changed since.");
         return;
     }
     if (const auto shown = ui.toggle("shown",
@@ -262,8 +329,18 @@ void stock_outcome(Ui& ui,
                                      "position")) {
         ask.run("simulation.show");
     }
-    if (!plan::give_the_same(view.result->job.settings, now.view_state.stock.wanted())) {
-        ui.note("Stock, resolution, tolerance or clearance have changed: simulate again for them.");
+    if (now.view_state.stock.shown) {
+        section_fields(ui, now, ask);
+    }
+    const viewport::Layers& layers = now.view_state.layers_now();
+    if (now.view_state.stock.shown && (layers.error_surface || layers.scallops || layers.weight) &&
+        !now.in_file()) {
+        ui.note("The stock hides the colours on the surface. Switch it off to see them.");
+    }
+    if (now.stock.is_outdated(now)) {
+        ui.note(now.in_file() ? "Stock, tools, resolution or clearance have changed: simulate again for them."
+                              : "Stock, resolution, tolerance or clearance have changed: simulate again for "
+                                "them.");
     }
     int number = 0;
     for (const Diagnostic& warning : view.result->warnings) {
@@ -272,13 +349,14 @@ void stock_outcome(Ui& ui,
     }
     ui.note("Stock: " + view.result->stock_text + ".");
     stock_figures(ui, now, *view.result);
-    {
+    if (now.stock.comparison()) {
         const auto row = ui.row(2);
         action_button(
             ui, now, ask, catalogue, "simulation.go_to_gouge", widgets::Rank::normal, "Go to gouge");
         action_button(
             ui, now, ask, catalogue, "simulation.go_to_excess", widgets::Rank::normal, "Go to excess");
     }
+    action_button(ui, now, ask, catalogue, "simulation.export", widgets::Rank::normal, "Export cut part");
     collision_notes(ui, *view.result, ask);
 }
 
@@ -289,7 +367,11 @@ void simulation_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const ac
     if (!section) {
         return;
     }
-    stock_fields(ui, now, ask);
+    if (now.in_file()) {
+        file_fields(ui, now, ask);
+    } else {
+        stock_fields(ui, now, ask);
+    }
     resolution_fields(ui, now, ask);
     comparison_settings(ui, now, ask);
     const plan::Activity work = now.stock.activity();

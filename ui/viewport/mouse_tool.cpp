@@ -158,7 +158,7 @@ std::vector<ViewEvent> MouseTool::follow(const MouseToolInput& input) {
 std::optional<double> MouseTool::point_at_solid(const MouseToolInput& input, const Frame& s_T_w) {
     const render::Ray ray = render::ray(input.view, pixel_of(input.pointer));
     if (shows_stock(input.scene)) {
-        const auto hit = pick_stock(*input.scene.stock, ray, s_T_w);
+        const auto hit = pick_stock(*input.scene.stock, ray, s_T_w, input.scene.stock_section);
         if (hit) {
             under_mouse_.on_surface = hit->position;
             under_mouse_.stock_height = hit->height;

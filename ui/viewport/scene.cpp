@@ -129,8 +129,9 @@ bool operator==(const Scene& a, const Scene& b) {
            a.table_tip == b.table_tip && a.against_light == b.against_light &&
            a.picture_shown == b.picture_shown && a.arm == b.arm && same(a.now, b.now) &&
            a.selected == b.selected && a.error == b.error && a.cut == b.cut && a.stock == b.stock &&
-           exactly_equal(a.stock_tolerance, b.stock_tolerance) && a.machine_solids == b.machine_solids &&
-           a.set_up == b.set_up && a.set_up_place == b.set_up_place && a.colors == b.colors;
+           exactly_equal(a.stock_tolerance, b.stock_tolerance) && a.stock_section == b.stock_section &&
+           a.machine_solids == b.machine_solids && a.set_up == b.set_up && a.set_up_place == b.set_up_place &&
+           a.colors == b.colors;
 }
 
 std::shared_ptr<const kinematics::MachineModel> machine_of(const Scene& scene) {
@@ -170,7 +171,7 @@ render::View path_view(const render::View& view, const Scene& scene) {
 }
 
 bool shows_stock(const Scene& scene) {
-    return scene.stock && !scene.opened && !scene.arm;
+    return scene.stock && !scene.arm;
 }
 
 SurfaceColors surface_colors(const Scene& scene) {

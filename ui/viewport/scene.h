@@ -22,6 +22,7 @@
 #include "ui/render/view.h"
 #include "ui/render/view_colors.h"
 #include "ui/viewport/arm_scene.h"
+#include "ui/viewport/stock_section.h"
 
 #include <memory>
 #include <optional>
@@ -144,6 +145,7 @@ struct Scene {
     std::shared_ptr<const plan::CutStudy> cut = nullptr;       ///< of the program
     std::shared_ptr<const plan::StockPicture> stock = nullptr; ///< at `now`, drawn in place of the surface
     double stock_tolerance = 0.1;                              ///< of its colours, mm
+    std::optional<StockSection> stock_section = std::nullopt;  ///< across it
     std::shared_ptr<const plan::SetUpResult> set_up = nullptr; ///< of the last search
     toolpath::SetUpPlace set_up_place = toolpath::SetUpPlace::Zero(); ///< that is marked on its map
     std::shared_ptr<const plan::OpenedProgram> opened = nullptr;      ///< in place of everything above

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace millwright::viewport {
 
@@ -16,6 +17,7 @@ namespace {
 constexpr glm::vec3 gouge{0.84F, 0.19F, 0.16F}, within{0.38F, 0.68F, 0.36F};
 constexpr glm::vec3 little_excess{0.62F, 0.77F, 0.94F}, much_excess{0.16F, 0.38F, 0.78F};
 constexpr glm::vec3 uncut{0.59F, 0.61F, 0.65F}, cut_beside{0.76F, 0.66F, 0.50F};
+constexpr glm::vec3 in_section{0.42F, 0.36F, 0.33F};
 constexpr double least_tolerance = 1e-6; // so that a legend has a range all the same
 
 } // namespace
@@ -41,29 +43,57 @@ glm::vec3 stock_color(bool is_cut) {
     return is_cut ? cut_beside : uncut;
 }
 
-std::optional<StockHit>
-pick_stock(const plan::StockPicture& picture, const render::Ray& ray, const Frame& s_T_w) {
+glm::vec3 stock_color(const plan::StockPicture& picture, std::size_t point, double tolerance) {
+    const auto& height = picture.heights[point];
+    const bool is_cut = picture.mesh.moves[point] != simulation::stock_surface;
+    const bool is_compared = height && (is_cut || *height <= tolerance);
+    return is_compared ? stock_color(*height, tolerance) : stock_color(is_cut);
+}
+
+glm::vec3 section_color() {
+    return in_section;
+}
+
+std::optional<StockHit> pick_stock(const plan::StockPicture& picture,
+                                   const render::Ray& ray,
+                                   const Frame& s_T_w,
+                                   const std::optional<StockSection>& section) {
     const Frame w_T_s = s_T_w.inverse();
     const Vec3 origin = w_T_s * render::to_core(ray.origin);
     const Vec3 direction = w_T_s.linear() * render::to_core(ray.direction);
     const auto at = [](const auto& of, int k) { return of[static_cast<std::size_t>(k)]; };
-    std::optional<StockHit> nearest;
+    const double before = section ? section->beyond(origin) : 0.0;
+    const double slope = section ? section->beyond(origin + direction) - before : 0.0;
+    const bool enters = before > 0.0 && slope < 0.0; // from the side that is taken away
+    const double plane = enters ? -before / slope : 0.0;
+    bool is_inside = false; // of the material, in the plane
+    StockHit nearest{.distance = std::numeric_limits<double>::infinity()};
     for (const auto& [a, b, c] : picture.mesh.triangles) {
         const auto met = meet_triangle(origin,
                                        direction,
                                        at(picture.mesh.points, a),
                                        at(picture.mesh.points, b),
                                        at(picture.mesh.points, c));
-        if (!met || (nearest && met->x() >= nearest->distance)) {
+        if (!met) {
+            continue;
+        }
+        is_inside ^= enters && met->x() > plane;
+        const Vec3 place = origin + met->x() * direction;
+        if ((section && section->beyond(place) > 0.0) || met->x() >= nearest.distance) {
             continue;
         }
         const auto &ha = at(picture.heights, a), &hb = at(picture.heights, b), &hc = at(picture.heights, c);
-        nearest = StockHit{.position = origin + met->x() * direction, .distance = met->x()};
+        nearest.position = place;
+        nearest.distance = met->x();
+        nearest.height.reset();
         if (ha && hb && hc) {
-            nearest->height = (1.0 - met->y() - met->z()) * *ha + met->y() * *hb + met->z() * *hc;
+            nearest.height = (1.0 - met->y() - met->z()) * *ha + met->y() * *hb + met->z() * *hc;
         }
     }
-    return nearest;
+    if (enters && is_inside) {
+        return StockHit{.position = origin + plane * direction, .distance = plane};
+    }
+    return std::isfinite(nearest.distance) ? std::optional(nearest) : std::nullopt;
 }
 
 std::string height_text(double height, double tolerance) {

@@ -7,6 +7,8 @@
 #include "core/project/json_kind.h"
 #include "core/project/plot_input.h"
 #include "ui/workspaces/processor_texts.h"
+#include "ui/workspaces/stock_file.h"
+#include "ui/workspaces/stock_workspace.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +34,7 @@ bool is_assembler_or_image(const fs::path& file) {
            actions::processor_file(file) == actions::ProcessorFile::image;
 }
 
-constexpr std::array<FilePromptRow, 20> prompts{
+constexpr std::array<FilePromptRow, 21> prompts{
     {{FilePrompt::open,
       "Open a project, G-code, surface, plot or picture",
       true,
@@ -65,6 +67,17 @@ constexpr std::array<FilePromptRow, 20> prompts{
       [](actions::AppController& app, const fs::path& file) { app.export_surface(file); },
       "No STEP, glb, STL, OBJ or PLY files in this folder.",
       exchange::is_surface_file},
+     {FilePrompt::export_stock,
+      "Export the cut part as",
+      false,
+      ".ply",
+      "cut.ply",
+      [](actions::AppController& app, const fs::path& file) {
+          app.stock().export_cut(file, app.view_state().stock.settings.tolerance);
+          app.view_state().file_prompt = FilePrompt::none;
+      },
+      "No STL, PLY or glb files in this folder.",
+      actions::is_stock_file},
      {FilePrompt::open_arm,
       "Open an arm",
       true,
@@ -196,6 +209,7 @@ std::string_view use_of(FilePrompt prompt) {
         return "open";
     case FilePrompt::import_surface:
     case FilePrompt::export_surface:
+    case FilePrompt::export_stock:
         return "surface";
     case FilePrompt::write_program:
         return "program";
@@ -231,6 +245,9 @@ bool is_listed(const FilePromptRow& asked, const fs::path& file) {
 }
 
 std::string ending_text(const FilePromptRow& asked) {
+    if (asked.prompt == FilePrompt::export_stock) {
+        return "The file extension selects the format: .ply and .glb with colours, or .stl.";
+    }
     return asked.prompt == FilePrompt::export_surface
                ? "The file extension selects the format: .step, .glb, .stl, .obj or .ply."
                : "Extension: " + std::string(asked.ending) + ".";

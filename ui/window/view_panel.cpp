@@ -129,6 +129,19 @@ void choose_face(int number, const FrameState& now, ActionQueue& ask) {
     }
 }
 
+void show_stock(const FrameState& now, viewport::Scene& scene) {
+    const Workspace at = now.view_state.workspace;
+    const bool has_stock = at == Workspace::toolpath || at == Workspace::program ||
+                           at == Workspace::machine || at == Workspace::plot;
+    if (has_stock && now.view_state.stock.shown && actions::stock_is_current(now)) {
+        scene.stock = now.stock.view().picture;
+        scene.stock_tolerance = now.view_state.stock.settings.tolerance;
+        if (now.view_state.stock.sectioned) {
+            scene.stock_section = now.view_state.stock.section;
+        }
+    }
+}
+
 /// What would become of the surface, in place of it.
 void show_import(const FrameState& now, viewport::Scene& scene) {
     const auto found = now.import.latest();
@@ -160,13 +173,7 @@ void show_planned(const FrameState& now, viewport::Scene& scene) {
         scene.set_up = now.set_up;
         scene.set_up_place = now.set_up_place();
     }
-    const bool has_stock = now.view_state.workspace == Workspace::toolpath ||
-                           now.view_state.workspace == Workspace::program ||
-                           now.view_state.workspace == Workspace::machine;
-    if (has_stock && now.view_state.stock.shown && actions::stock_is_current(now)) {
-        scene.stock = now.stock.view().picture;
-        scene.stock_tolerance = now.view_state.stock.settings.tolerance;
-    }
+    show_stock(now, scene);
     scene.start = now.evaluation(project::GridMethod::uniform);
     viewport::SurfaceTool tool = surface_tool_of(now);
     if (plan.surface && static_cast<std::size_t>(tool.patch) <
@@ -210,6 +217,7 @@ viewport::Scene scene_of(const FrameState& now) {
     if (now.in_file()) {
         scene.opened = now.opened;
         scene.now = now.moment();
+        show_stock(now, scene);
         scene.layers.machine = scene.layers.machine && scene.now && scene.opened->machine;
         if (const auto place = now.file_place(); place && !scene.table_tip) {
             scene.opened_now = place->moment;

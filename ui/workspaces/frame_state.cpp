@@ -137,6 +137,7 @@ std::shared_ptr<const program::Listing> FrameState::listing() const {
 
 project::Project design_of(project::Project project) {
     project.plot = {};
+    project.stock = {};
     project.arm = {};
     return project;
 }

@@ -34,7 +34,7 @@ struct ProgramOfMachine {
     std::shared_ptr<const kinematics::MachineModel> machine; ///< that it is for
 };
 
-/// Without plot and arm, of which the plan has no use.
+/// Without stock, plot and arm, of which the plan has no use.
 [[nodiscard]] project::Project design_of(project::Project project);
 
 struct FrameState {

@@ -4,73 +4,100 @@
 #include "core/simulation/spec_text.h"
 #include "ui/workspaces/frame_state.h"
 #include "ui/workspaces/view_state.h"
+#include "core/base/files.h"
+#include "core/plan/part_stock.h"
+#include "ui/workspaces/stock_file.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace millwright::actions {
 
 namespace {
 
-/// Nothing for a mesh, which would have to be read, and for a text with a fault.
-std::optional<simulation::Stock> quick_stock(const geometry::Surface& surface,
-                                             const plan::StockSettings& settings) {
-    if (settings.stock.empty()) {
-        return plan::stock_around(surface, settings.allowance).stock;
-    }
-    try {
-        auto stock = simulation::parse_stock(settings.stock).stock;
-        return stock && simulation::fault_of(*stock).empty() ? stock : std::nullopt;
-    } catch (const Error&) { // the field that has the text says what is wrong with it
-        return std::nullopt;
-    }
-}
-
 bool is_other_stock(const plan::StockResult* seen, const plan::StockResult& now) {
     return !seen || seen->job.surface != now.job.surface || seen->stock_text != now.stock_text;
 }
 
-/// What is of another program than the project's can never be shown again.
+std::shared_ptr<const program::Program> program_of(const plan::OpenedProgram* opened) {
+    return opened != nullptr && opened->motion ? opened->motion->program : nullptr;
+}
+
+/// Of the project, of the opened file, or what is looked at.
+bool is_there(const FrameState& now, const std::shared_ptr<const program::Program>& program) {
+    return (now.plan && now.plan->plan.program == program) || program_of(now.opened_file.get()) == program ||
+           program_of(now.opened.get()) == program;
+}
+
+/// What is of a program that is gone can never be shown again.
 void follow_program(plan::StockWorker& worker, const FrameState& now, ViewState& view_state) {
-    const auto planned = now.plan ? now.plan->plan.program : nullptr;
     const plan::Activity work = worker.activity();
-    if (work.busy && !work.stopping && worker.requested() != planned) {
+    if (work.busy && !work.stopping && !is_there(now, worker.requested())) {
         worker.cancel();
         tell(view_state,
              widgets::Severity::info,
              "Simulation cancelled: the program has changed. Simulate again.");
     }
-    if (const auto result = worker.view().result; result && result->job.program != planned) {
+    if (const auto result = worker.view().result; result && !is_there(now, result->job.program)) {
         worker.release();
+    }
+}
+
+/// Another file begins with the box around its path, and without tools.
+void follow_file(const FrameState& now, FileStock& chosen) {
+    if (now.in_file() && now.opened->motion && chosen.file != now.opened->file) {
+        chosen = {now.opened->file, plan::suggested_stock(*now.opened), {}};
     }
 }
 
 } // namespace
 
+plan::StockSettings wanted_stock(const FrameState& now) {
+    plan::StockSettings wanted = now.view_state.stock.settings;
+    const project::StockInput& input = now.project.stock;
+    wanted.allowance = input.allowance_mm;
+    if (now.in_file()) {
+        const FileStock& file = now.view_state.stock.file;
+        wanted.stock = file.file == now.opened->file ? file.stock : std::string();
+    } else {
+        wanted.stock = input.around_part ? std::string() : plan::stock_text(input);
+    }
+    return wanted;
+}
+
 void StockWorkspace::simulate(const FrameState& now) {
-    const plan::Plan& plan = now.plan->plan;
-    worker_.request({.project = now.plan->project,
-                     .surface = plan.surface,
-                     .cutting_setup = plan.cutting_setup,
-                     .program = plan.program,
-                     .listing = plan.listing,
-                     .machine_solids = now.machine_solids,
-                     .settings = now.view_state.stock.wanted()});
+    plan::StockJob job;
+    job.settings = wanted_stock(now);
+    if (now.in_file()) {
+        job.file = plan::file_setup(*now.opened, now.view_state.stock.file.tools);
+        asked_tools_ = now.view_state.stock.file.tools;
+        job.program = now.opened->motion->program;
+        job.listing = now.opened->motion->listing;
+    } else {
+        const plan::Plan& plan = now.plan->plan;
+        job.project = now.plan->project;
+        job.surface = plan.surface;
+        job.cutting_setup = plan.cutting_setup;
+        job.program = plan.program;
+        job.listing = plan.listing;
+        job.machine_solids = now.machine_solids;
+    }
+    worker_.request(std::move(job));
 }
 
 void StockWorkspace::follow_forecast(const FrameState& now) {
-    const auto surface = now.plan ? now.plan->plan.surface : nullptr;
-    const plan::StockSettings settings = now.view_state.stock.wanted();
-    const bool same = surface == surface_ && settings.stock == settings_.stock &&
-                      settings.resolution == settings_.resolution &&
-                      !(settings.allowance < settings_.allowance) &&
-                      !(settings.allowance > settings_.allowance);
-    if (same) {
+    const auto surface = now.plan && !now.in_file() ? now.plan->plan.surface : nullptr;
+    plan::StockSettings settings = wanted_stock(now);
+    settings.tolerance = settings_.tolerance; // neither counts for it
+    settings.clearance = settings_.clearance;
+    if (asked_ && surface == surface_ && settings == settings_) {
         return;
     }
+    asked_ = true;
     surface_ = surface;
     settings_ = settings;
-    const auto stock = surface ? quick_stock(*surface, settings) : std::nullopt;
-    forecast_ = stock ? std::optional(plan::forecast_of(*stock, settings.resolution)) : std::nullopt;
+    worker_.forecast(surface, settings);
 }
 
 void StockWorkspace::follow_comparison(double tolerance) {
@@ -80,14 +107,25 @@ void StockWorkspace::follow_comparison(double tolerance) {
     }
     compared_ = result;
     tolerance_ = tolerance;
-    comparison_ = result
-                      ? std::optional(simulation::summary_of(result->points, result->deviations, tolerance))
-                      : std::nullopt;
+    if (!result || result->points.empty()) {
+        comparison_.reset();
+        histogram_ = {};
+        return;
+    }
+    comparison_ = simulation::summary_of(result->points, result->deviations, tolerance);
+    constexpr int bins = 40;
+    histogram_ = simulation::histogram_of(
+        result->points, result->deviations, simulation::histogram_range(result->deviations, tolerance), bins);
 }
 
 void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
     follow_program(worker_, now, view_state);
+    follow_file(now, view_state.stock.file);
+    const auto before = view_.result;
     view_ = worker_.view();
+    if (view_.result != before) {
+        used_tools_ = asked_tools_;
+    }
     follow_forecast(now);
     follow_comparison(now.view_state.stock.settings.tolerance);
     if (!stock_is_current(now)) {
@@ -96,28 +134,49 @@ void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
     if (view_.result != seen_) {
         if (view_.picture || view_.picture_failure) {
             if (view_state.stock.shown && is_other_stock(seen_.get(), *view_.result)) {
-                view_state.fit_wanted_in(Workspace::toolpath) = true; // it is larger than the part
-                view_state.fit_wanted_in(Workspace::program) = true;
+                view_state.fit_wanted_in(Workspace::program) = true; // it is larger than the part
+                view_state.fit_wanted_in(Workspace::toolpath) |= !view_.result->job.file;
             }
             seen_ = view_.result;
         }
         if (!now.follows_job()) {
             view_state.playback.playing = false;
             view_state.playback.time = now.duration();
+            view_state.file.step.reset(); // the motion says where one is
         }
     }
     worker_.show(executed_blocks(now));
 }
 
+bool StockWorkspace::is_outdated(const FrameState& now) const {
+    if (!view_.result) {
+        return false;
+    }
+    const plan::StockJob& job = view_.result->job;
+    return !plan::give_the_same(job.settings, wanted_stock(now)) ||
+           (job.file && used_tools_ != now.view_state.stock.file.tools);
+}
+
+void StockWorkspace::export_cut(const std::filesystem::path& file, double tolerance) const {
+    if (!view_.picture) {
+        throw Error("nothing has been simulated", file, "simulate first");
+    }
+    write_file(file, stock_file_bytes(*view_.picture, tolerance, file));
+}
+
 bool stock_is_current(const FrameState& now) {
     const auto& result = now.stock.view().result;
-    return result && !now.in_file() && result->job.program == now.program();
+    return result && result->job.program == now.program();
 }
 
 int executed_blocks(const FrameState& now) {
     const auto program = now.program();
     if (!program) {
         return 0;
+    }
+    if (now.follows_job() && now.job.from_line <= 1 && now.job.listing &&
+        std::ssize(now.job.listing->line_of_block) == program->block_count()) {
+        return std::clamp(now.job.report->driver.executed_blocks, 0, program->block_count());
     }
     return now.time() < now.duration() ? std::max(now.block(), 0) : program->block_count();
 }
@@ -127,6 +186,7 @@ void go_to_block(const FrameState& now, ViewState& view_state, int block, double
     if (trajectory && !now.follows_job() && block >= 0) {
         view_state.playback.playing = false;
         view_state.playback.time = trajectory->time_at(block, fraction);
+        view_state.file.step.reset(); // the motion says where one is
     }
 }
 

@@ -103,6 +103,7 @@ enum class FilePrompt {
     save_as,
     import_surface, ///< of another program
     export_surface, ///< for one
+    export_stock,   ///< what a simulation has left
     open_points,    ///< taught to the arm
     save_points,
     open_motion_program, ///< of the arm's card

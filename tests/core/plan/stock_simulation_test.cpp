@@ -179,6 +179,55 @@ TEST(StockSimulation, TheBoxAroundAFlatPartNeedsAnAllowance) {
     }
 }
 
+TEST(StockForecast, OfAFlatPartSaysThatItCannotBeCut) {
+    geometry::ControlNet net = geometry::ControlNet::sized(2, 2);
+    net.point(1, 0) = {20.0, 0.0, 0.0};
+    net.point(0, 1) = {0.0, 20.0, 0.0};
+    net.point(1, 1) = {20.0, 20.0, 0.0};
+    const geometry::Surface flat(std::vector{geometry::BezierPatch(net)});
+    StockSettings settings;
+    settings.allowance = 0.0;
+    EXPECT_NE(forecast_of(&flat, settings, {}).fault.find("flat"), std::string::npos);
+    settings.allowance = 1.0;
+    const StockForecast around = forecast_of(&flat, settings, {});
+    EXPECT_TRUE(around.fault.empty());
+    EXPECT_GT(around.bytes, 0U);
+    settings.stock = "box:10,10,10";
+    EXPECT_EQ(forecast_of(nullptr, settings, {}),
+              forecast_of(simulation::BoxStock{Vec3::Zero(), Vec3::Constant(10.0)}, {}));
+}
+
+TEST(StockWorker, ForecastsInTheBackground) {
+    StockWorker worker([] {});
+    worker.forecast(dome_job().surface, {});
+    worker.wait_idle();
+    ASSERT_TRUE(worker.view().forecast);
+    const StockForecast before = *worker.view().forecast;
+    StockSettings larger;
+    larger.allowance = 10.0;
+    worker.forecast(dome_job().surface, larger);
+    worker.wait_idle();
+    EXPECT_GT(worker.view().forecast->resolution, before.resolution) << "a larger box";
+    larger.stock = "missing.stl";
+    worker.forecast(nullptr, larger);
+    worker.wait_idle();
+    EXPECT_FALSE(worker.view().forecast);
+}
+
+TEST(StockText, AProjectsStockIsItsTextAndBack) {
+    project::StockInput input;
+    EXPECT_EQ(stock_text(input), input.shape);
+    input = with_stock(input, "/parts/block.stl@1,-2,0.25");
+    EXPECT_FALSE(input.around_part);
+    EXPECT_EQ(input.file, "/parts/block.stl");
+    EXPECT_EQ(input.position, Vec3(1.0, -2.0, 0.25));
+    EXPECT_EQ(stock_text(input), "/parts/block.stl@1,-2,0.25");
+    input = with_stock(input, "cylinder:20,30");
+    EXPECT_TRUE(input.file.empty());
+    EXPECT_EQ(stock_text(input), "cylinder:20,30");
+    EXPECT_THROW((void)with_stock(input, "brick"), Error);
+}
+
 TEST(StockText, AMeshFileIsBesideTheProject) {
     namespace fs = std::filesystem;
     const test::ScratchFolder scratch;

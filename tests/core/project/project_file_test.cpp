@@ -231,6 +231,44 @@ TEST(ProjectFile, APartOfNanometresIsRefusedAtItsPatch) {
                           "minimum of 0.001 mm"));
 }
 
+TEST(ProjectFile, AStockComesBackAndTheUsualOneIsNotWritten) {
+    Project project = project_from_preset("dome");
+    EXPECT_EQ(project_text(project).find("\"stock\""), std::string::npos);
+    project.stock = {false, 0.5, "tube:90,20,40@0,0,-30", {}, Vec3::Zero()};
+    EXPECT_EQ(project_from_text(project_text(project), "part.json"), project);
+    project.stock.around_part = true;
+    EXPECT_EQ(project_from_text(project_text(project), "part.json"), project);
+}
+
+TEST(ProjectFile, TheMeshOfAStockIsNamedFromTheFolderOfTheProject) {
+    const test::ScratchFolder scratch;
+    Project project = project_from_preset("dome");
+    project.stock = {false, 2.0, "box:9,9,9", scratch / "meshes/block.stl", {1.0, -2.0, 0.1}};
+    const std::string text = write_project(project, scratch / "part.json");
+    EXPECT_THAT(text, HasSubstr("\"file\": \"meshes/block.stl\""));
+    EXPECT_EQ(read_project(scratch / "part.json"), project);
+    fs::create_directories(scratch / "elsewhere");
+    EXPECT_THAT(write_project(project, scratch / "elsewhere/part.json"),
+                HasSubstr((scratch / "meshes/block.stl").string()));
+}
+
+TEST(ProjectFile, AFaultyStockIsRefusedAtItsPlace) {
+    Project project = project_from_preset("dome");
+    project.stock = {false, 3.25, "box:100,100,20@-50,-50,-20", "block.stl", Vec3::Zero()};
+    const std::string text = project_text(project);
+    const auto fault = [&](const std::string& from, const std::string& to) {
+        return fault_in(replaced(text, from, to));
+    };
+    EXPECT_THAT(fault("3.25", "-1"), AllOf(StartsWith("part.json:"), HasSubstr("stock/allowance_mm")));
+    EXPECT_THAT(fault("3.25", "\"thick\""), HasSubstr("stock/allowance_mm"));
+    EXPECT_THAT(fault("block.stl", ""), AllOf(HasSubstr("stock/file"), HasSubstr("empty")));
+    EXPECT_THAT(fault("box:100,100,20@-50,-50,-20", ""),
+                AllOf(HasSubstr("stock/shape"), HasSubstr("no stock is named")));
+    EXPECT_THAT(fault("\"shape\"", "\"form\""), HasSubstr("stock"));
+    project.stock.allowance_mm = -1.0;
+    EXPECT_THROW((void)project_text(project), Error);
+}
+
 TEST(ProjectFile, AMissingFileIsNamed) {
     try {
         (void)read_project("no/such.json");

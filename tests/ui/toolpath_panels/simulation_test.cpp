@@ -2,13 +2,19 @@
 #include "tests/ui/person/person.h"
 #include "ui/toolpath_panels/simulation_notices.h"
 #include "ui/workspaces/stock_workspace.h"
+#include "core/base/error.h"
+#include "core/base/files.h"
+#include "core/geometry/glb.h"
+#include "core/project/project_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <numeric>
 #include <string>
 
 namespace millwright::panels {
@@ -187,27 +193,6 @@ TEST_F(SimulationPanel, ACollisionIsListedAndAClickGoesThere) {
     EXPECT_THAT(person().desktop().ui().cut_texts(), ::testing::IsEmpty());
 }
 
-TEST(SimulationNotices, OnlyWhatWasCheckedIsGood) {
-    plan::StockResult result;
-    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::good);
-    EXPECT_EQ(collision_notice(result).text, "No collisions.");
-    result.unchecked = {"the tool has no holder: only its cutter and shank are checked"};
-    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::info);
-    EXPECT_EQ(collision_notice(result).text,
-              "No collisions found. Not checked: the tool has no holder: only its cutter and shank are "
-              "checked.");
-    result.events.push_back({.kind = plan::StockEventKind::near_miss, .bodies = "cutter and stock"});
-    result.events.push_back({.kind = plan::StockEventKind::collision, .bodies = "cutter and stock"});
-    EXPECT_EQ(collision_notice(result).severity, widgets::Severity::danger);
-    EXPECT_EQ(collision_notice(result).text.find("1 collision or fault. 1 near miss. Not checked: "), 0U);
-}
-
-TEST(SimulationNotices, ASentenceBeginsWithItsLine) {
-    EXPECT_EQ(sentence_of({{{}, 5, 0, -1}, "not simulated: 2 feeds", "position all axes first"}),
-              "Line 5: Not simulated: 2 feeds. Position all axes first.");
-    EXPECT_EQ(sentence_of({{}, "no move meets the stock", {}}), "No move meets the stock.");
-}
-
 TEST_F(SimulationPanel, AStockThatNoMoveMeetsIsWarnedOf) {
     simulate();
     EXPECT_FALSE(person().sees(at("warning_0")));
@@ -328,10 +313,150 @@ TEST_F(SimulationPanel, APointAndAWrongStockAreRefused) {
     person().wait_idle();
     EXPECT_NE(person().refusal(at("simulation_run")).find("point"), std::string::npos);
     person().choose(at("stock"), "text");
-    const std::string before = view_state().stock.text;
+    const project::StockInput before = person().project().stock;
     person().fill_in(at("stock_text"), "brick");
     person().wait_idle();
-    EXPECT_EQ(view_state().stock.text, before);
+    EXPECT_EQ(person().project().stock, before);
+}
+
+TEST_F(SimulationPanel, TheStockIsOfTheProjectAndCanBeUndone) {
+    simulate();
+    const project::StockInput before = person().project().stock;
+    const auto program = person().app().look().program();
+    person().choose(at("stock"), "text");
+    person().fill_in(at("stock_text"), "cylinder:120,40@50,50,-10");
+    person().wait_idle();
+    EXPECT_FALSE(person().project().stock.around_part);
+    EXPECT_EQ(person().project().stock.shape, "cylinder:120,40@50,50,-10");
+    EXPECT_EQ(person().app().look().program(), program) << "no plan depends on the stock";
+    EXPECT_TRUE(person().app().look().program_is_final());
+    const auto file = person().folder() / "saved.json";
+    person().app().save(file);
+    EXPECT_EQ(project::read_project(file).stock, person().project().stock);
+    person().app().run("edit.undo");
+    person().app().run("edit.undo");
+    person().wait_idle();
+    EXPECT_EQ(person().project().stock, before);
+    person().app().run("edit.redo");
+    person().app().run("edit.redo");
+    person().wait_idle();
+    simulate();
+    EXPECT_EQ(stock().view().result->stock_text.find("cylinder"), 0U) << stock().view().result->stock_text;
+}
+
+TEST_F(SimulationPanel, AFlatPartIsRefusedAtTheButton) {
+    person().app().edit("Flatten",
+                        [](project::Project& p) {
+                            for (geometry::ControlNet& net : p.surface.patches) {
+                                for (Vec3& point : net.points) {
+                                    point.z() = 0.0;
+                                }
+                            }
+                        },
+                        {});
+    person().wait_idle();
+    EXPECT_EQ(person().refusal(at("simulation_run")), "");
+    person().fill_in(at("allowance"), "0");
+    person().wait_idle();
+    EXPECT_THAT(person().refusal(at("simulation_run")), ::testing::HasSubstr("flat"));
+    person().keep("simulation-flat");
+}
+
+TEST_F(SimulationPanel, TheHistogramIsOfTheWholeArea) {
+    EXPECT_TRUE(stock().histogram().shares.empty());
+    simulate();
+    const auto& shares = stock().histogram().shares;
+    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-9);
+    double gouged = 0.0;
+    for (std::size_t n = 0; n < shares.size() / 2; ++n) {
+        gouged += shares[n];
+    }
+    EXPECT_LT(gouged, 0.5) << "a ball leaves more than it gouges";
+    EXPECT_TRUE(person().sees(at("histogram")));
+    EXPECT_TRUE(person().sees(at("left")));
+}
+
+TEST_F(SimulationPanel, RemovalRateAndEngagementAreOverTheTimeline) {
+    person().press_key(render::Key::f5);
+    person().wait_idle();
+    view_state().lower_tab_now() = actions::LowerTab::motion;
+    person().frames(3);
+    EXPECT_FALSE(person().sees("lower/shown/rate"));
+    simulate();
+    person().frames(3);
+    person().click("lower/shown/rate");
+    person().frames(3);
+    person().keep("simulation-rate");
+    const render::Picture rate = person().picture_of("lower/motion");
+    person().click("lower/shown/engagement");
+    person().frames(3);
+    EXPECT_NE(person().picture_of("lower/motion"), rate);
+    person().keep("simulation-engagement");
+    EXPECT_THAT(person().desktop().ui().cut_texts(), ::testing::IsEmpty());
+    person().app().edit("More nodes", [](project::Project& p) { p.grid.nu = 7; }, {});
+    person().wait_idle();
+    EXPECT_FALSE(person().sees("lower/shown/rate")) << "it is of another program";
+}
+
+TEST_F(SimulationPanel, ASectionLooksInsideAndCanBeMoved) {
+    simulate();
+    const render::Picture whole = person().picture_of("view/iso");
+    person().click(at("section"));
+    person().frames(3);
+    const render::Picture middle = person().picture_of("view/iso");
+    EXPECT_NE(middle, whole);
+    person().keep("simulation-section");
+    person().fill_in(at("section_at"), "20");
+    person().frames(3);
+    EXPECT_DOUBLE_EQ(view_state().stock.section.at, 20.0);
+    EXPECT_NE(person().picture_of("view/iso"), middle);
+    person().choose(at("section_axis"), "x");
+    person().frames(3);
+    person().keep("simulation-section-x");
+    EXPECT_EQ(view_state().stock.section.axis, 0);
+    person().click(at("section"));
+    person().frames(3);
+    EXPECT_EQ(person().picture_of("view/iso"), whole);
+}
+
+TEST_F(SimulationPanel, TheLayerListShowsAndHidesTheStock) {
+    person().click("view/layers");
+    EXPECT_NE(person().refusal("view/layers/stock"), "") << "nothing has been simulated";
+    person().click("outline");
+    simulate();
+    person().click("view/layers");
+    person().click("view/layers/stock");
+    person().frames(3);
+    EXPECT_FALSE(view_state().stock.shown);
+    EXPECT_FALSE(person().sees("view/stock_legend"));
+    person().keep("simulation-layers");
+}
+
+TEST_F(SimulationPanel, TheCutPartIsExportedWithItsColours) {
+    EXPECT_NE(person().app().catalogue().find("simulation.export").permission(person().app().look()).reason,
+              "");
+    simulate();
+    const std::filesystem::path folder = person().folder();
+    person().click(at("simulation_export"));
+    person().frames(3);
+    ASSERT_TRUE(person().sees("dialogs/files/name"));
+    person().keep("simulation-export");
+    person().press_key(render::Key::escape);
+    const auto& mesh = stock().view().picture->mesh;
+    stock().export_cut(folder / "cut.stl", 0.1);
+    EXPECT_EQ(std::filesystem::file_size(folder / "cut.stl"), 84 + 50 * mesh.triangles.size());
+    stock().export_cut(folder / "cut.ply", 0.1);
+    EXPECT_EQ(read_file(folder / "cut.ply").rfind("ply\n", 0), 0U);
+    stock().export_cut(folder / "cut.glb", 0.1);
+    const auto bodies = geometry::parse_glb(read_file(folder / "cut.glb"), "cut.glb");
+    ASSERT_EQ(bodies.size(), 1U);
+    std::size_t triangles = 0;
+    for (const geometry::SolidMesh& part : bodies.front().meshes) {
+        triangles += part.triangles.size();
+    }
+    EXPECT_EQ(triangles, mesh.triangles.size());
+    EXPECT_GT(bodies.front().meshes.size(), 2U) << "cut, within and excess differ";
+    EXPECT_THROW(stock().export_cut(folder / "cut.txt", 0.1), Error);
 }
 
 TEST_F(SimulationPanel, IsInTheProgramWorkspaceToo) {

@@ -78,7 +78,8 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
                          "Value with the part at that position: mean error or machine travel.",
                          set_up_colors(scene)});
     }
-    if (shows_stock(scene)) {
+    const bool has_no_part = scene.stock && scene.stock->result && scene.stock->result->job.file;
+    if (shows_stock(scene) && !has_no_part) {
         found.push_back(stock_legend(scene.stock_tolerance));
     }
     if (surface == SurfaceColors::deviation) {

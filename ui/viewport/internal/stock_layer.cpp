@@ -3,55 +3,84 @@
 #include "ui/viewport/internal/boxes.h"
 #include "ui/viewport/internal/curves.h"
 #include "ui/viewport/internal/layers.h"
+#include "ui/viewport/stock_section.h"
 #include "ui/viewport/stock_sight.h"
 
+#include <glm/common.hpp>
+
+#include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace millwright::viewport {
 
 namespace {
 
 constexpr std::size_t most_stock_outline = 2'000; // points that the view is fitted to
+constexpr double least_strip = 0.02;              // mm, of a section
 
-/// Normals are the mean of those of the triangles around, by area.
-std::vector<Vec3> normals_of(const simulation::CutMesh& mesh) {
-    std::vector<Vec3> normals(mesh.points.size(), Vec3::Zero());
-    const auto point = [&](int k) { return mesh.points[static_cast<std::size_t>(k)]; };
-    for (const auto& triangle : mesh.triangles) {
-        const Vec3 a = point(triangle[0]);
-        const Vec3 doubled = (point(triangle[1]) - a).cross(point(triangle[2]) - a);
-        for (const int corner : triangle) {
-            normals[static_cast<std::size_t>(corner)] += doubled;
-        }
-    }
-    for (Vec3& normal : normals) {
-        const double length = normal.norm();
-        normal = length > 0.0 ? Vec3(normal / length) : Vec3(Vec3::UnitZ());
-    }
-    return normals;
-}
-
-render::MeshBuffer stock_buffer(const plan::StockPicture& picture, double tolerance) {
-    const std::vector<Vec3> normals = normals_of(picture.mesh);
+struct Triangles {
     std::vector<render::MeshVertex> vertices;
-    vertices.reserve(normals.size());
-    for (std::size_t n = 0; n < normals.size(); ++n) {
-        const auto& height = picture.heights[n];
-        const bool is_cut = picture.mesh.moves[n] != simulation::stock_surface;
-        const bool is_compared = height && (is_cut || *height <= tolerance);
-        const glm::vec3 color = is_compared ? stock_color(*height, tolerance) : stock_color(is_cut);
-        vertices.push_back({.position = render::to_float(picture.mesh.points[n]),
-                            .normal = render::to_float(normals[n]),
-                            .color = with_opacity(color, 1.0F)});
-    }
     std::vector<std::uint32_t> corners;
-    corners.reserve(3 * picture.mesh.triangles.size());
-    for (const auto& triangle : picture.mesh.triangles) {
-        for (const int corner : triangle) {
+
+    void add(const auto& triangle) {
+        for (const auto& corner : triangle) {
             corners.push_back(static_cast<std::uint32_t>(corner));
         }
     }
-    return {vertices, corners};
+};
+
+Triangles whole(const plan::StockPicture& picture, double tolerance) {
+    const std::vector<Vec3> normals = simulation::normals_of(picture.mesh);
+    Triangles all;
+    all.vertices.reserve(normals.size());
+    for (std::size_t n = 0; n < normals.size(); ++n) {
+        all.vertices.push_back({.position = render::to_float(picture.mesh.points[n]),
+                                .normal = render::to_float(normals[n]),
+                                .color = with_opacity(stock_color(picture, n, tolerance), 1.0F)});
+    }
+    for (const auto& triangle : picture.mesh.triangles) {
+        all.add(triangle);
+    }
+    return all;
+}
+
+/// What stays of `all`, closed by the material in the plane.
+Triangles sectioned(const Triangles& all, const plan::StockPicture& picture, const StockSection& section) {
+    const double strip = std::max(picture.result ? picture.result->cell.maxCoeff() : 0.0, least_strip);
+    const SectionedMesh made = section_of(picture.mesh, section, strip);
+    Triangles kept;
+    for (const SectionedMesh::Corner& corner : made.corners) {
+        const render::MeshVertex& from = all.vertices[static_cast<std::size_t>(corner.from)];
+        const render::MeshVertex& to = all.vertices[static_cast<std::size_t>(corner.to)];
+        const auto share = static_cast<float>(corner.share);
+        kept.vertices.push_back({.position = glm::mix(from.position, to.position, share),
+                                 .normal = glm::mix(from.normal, to.normal, share),
+                                 .color = glm::mix(from.color, to.color, share)});
+    }
+    for (const auto& triangle : made.triangles) {
+        kept.add(triangle);
+    }
+    Vec3 normal = Vec3::Zero();
+    normal[section.axis] = section.keeps_above ? -1.0 : 1.0;
+    for (const auto& triangle : made.cap) {
+        for (const Vec3& place : triangle) {
+            kept.corners.push_back(static_cast<std::uint32_t>(kept.vertices.size()));
+            kept.vertices.push_back({.position = render::to_float(place),
+                                     .normal = render::to_float(normal),
+                                     .color = with_opacity(section_color(), 1.0F)});
+        }
+    }
+    return kept;
+}
+
+render::MeshBuffer stock_buffer(const plan::StockPicture& picture,
+                                double tolerance,
+                                const std::optional<StockSection>& section) {
+    const Triangles all = whole(picture, tolerance);
+    const Triangles drawn = section ? sectioned(all, picture, *section) : all;
+    return {drawn.vertices, drawn.corners};
 }
 
 class StockLayer final : public Layer {
@@ -62,12 +91,13 @@ public:
         }
         const bool same_tolerance =
             !(scene.stock_tolerance < tolerance_ || scene.stock_tolerance > tolerance_);
-        if (scene.stock == picture_ && same_tolerance) {
+        if (scene.stock == picture_ && same_tolerance && scene.stock_section == section_) {
             return;
         }
         picture_ = scene.stock;
         tolerance_ = scene.stock_tolerance;
-        mesh_ = stock_buffer(*picture_, tolerance_);
+        section_ = scene.stock_section;
+        mesh_ = stock_buffer(*picture_, tolerance_, section_);
         outline_.clear();
         const std::size_t stride = picture_->mesh.points.size() / most_stock_outline + 1;
         for (std::size_t n = 0; n < picture_->mesh.points.size(); n += stride) {
@@ -94,6 +124,7 @@ public:
 private:
     std::shared_ptr<const plan::StockPicture> picture_;
     double tolerance_ = 0.0;
+    std::optional<StockSection> section_;
     render::MeshBuffer mesh_;
     std::vector<Vec3> outline_;
 };
