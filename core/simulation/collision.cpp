@@ -6,6 +6,8 @@
 #include "core/simulation/internal/collision_pairs.h"
 #include "core/simulation/internal/remaining_stock.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -73,7 +75,8 @@ public:
     }
 
 private:
-    static constexpr double searched = 0.8; // of the progress
+    static constexpr double searched = 0.8;   // of the progress
+    static constexpr int most_renewals = 200; // of the mesh of what is left: up to a second each
 
     struct Setup {
         int first_block = 0;
@@ -178,11 +181,17 @@ private:
                 return false; // the mesh is all that is left, or more
             }
             event.approach = *found;
-            if (rest_->is_current_near(in_workpiece(setup, event))) {
+            if (renewals_ == most_renewals || rest_->is_current_near(in_workpiece(setup, event))) {
                 event.depth = found->contact ? deepest_of(pair, motion, found->time) : 0.0;
                 return true;
             }
             rest_->renew(here);
+            if (++renewals_ == most_renewals) {
+                report_.unchecked.push_back(fmt::format(
+                    "from line {} on, machine bodies are compared with the stock that is left before "
+                    "it: later cuts may have removed what they meet",
+                    line_of(event.block)));
+            }
         }
         return false;
     }
@@ -349,6 +358,7 @@ private:
     std::vector<Setup> setups_;
     const Setup* last_ = nullptr;
     std::optional<RemainingStock> rest_; // from the first event with the stock on
+    int renewals_ = 0;                   // of its mesh
     double done_ = 0.0;                  // of the progress
     std::vector<Row> rows_;
     std::map<Key, std::size_t> open_;
