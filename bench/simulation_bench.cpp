@@ -1,15 +1,24 @@
 // Removal along the path of a public benchmark: a block of 200 x 100 x 20 mm, rows of 1 mm segments 2 mm
 // apart, levels of 1.5 mm, a ball end of 6 mm whose axis swings by 15 degrees. planar: the axis swings in the
 // plane of the row; twisted: sideways, too.
+// relief: a million moves of a ball of 1 mm over a plate of 100 mm, on a machine with three axes, and then to
+// 20 lines anywhere in it, forwards and back.
 //     build/release/bench/simulation_bench --benchmark_counters_tabular=true
-// Counters: segments, seconds on the clock, MB of the field at the end, mm3 removed.
+// Counters: segments, MB of the field at the end, mm3 removed; of relief MB of the keyframes and processor
+// time of the slowest way to a line, s. Time is that of the clock, CPU that of all threads.
+#include "bench/processor_time.h"
 #include "core/base/units.h"
+#include "core/kinematics/machine_file.h"
 #include "core/simulation/removal.h"
+#include "core/simulation/simulator.h"
 #include "core/toolpath/cutter.h"
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <vector>
 
 namespace millwright::simulation {
@@ -70,6 +79,67 @@ void twisted(benchmark::State& state) {
     cut_bench(state, true);
 }
 
+/// Rows `pitch` mm apart of points `pitch` mm apart, a million for 0.1 mm.
+program::Program relief_program(const kinematics::MachineModel& machine, double pitch) {
+    program::Program made;
+    for (const kinematics::MachineAxis& axis : machine.axes()) {
+        made.axes.push_back({axis.letter, axis.kind});
+    }
+    const int side = static_cast<int>(std::lround(100.0 / pitch));
+    for (int row = 0; row < side; ++row) {
+        for (int n = 0; n < side; ++n) {
+            const double x = pitch * (row % 2 == 0 ? n : side - 1 - n), y = pitch * row;
+            const double z =
+                -1.5 + std::sin(0.31 * x) * std::cos(0.23 * y) + 0.3 * std::sin(2.1 * x + 0.9 * y);
+            program::Block block;
+            block.kind = program::BlockKind::feed;
+            block.target = kinematics::AxisPositions::Zero(machine.axis_count());
+            block.target[machine.axis_index('X')] = x;
+            block.target[machine.axis_index('Y')] = y;
+            block.target[machine.axis_index('Z')] = z;
+            for (const char letter : {'X', 'Y', 'Z'}) {
+                block.named.insert(machine.axis_index(letter));
+            }
+            block.source_line = made.block_count() + 1;
+            made.blocks.push_back(std::move(block));
+        }
+    }
+    made.start = made.blocks.front().target;
+    return made;
+}
+
+void relief(benchmark::State& state) {
+    const kinematics::MachineModel machine = kinematics::read_machine("assets/machines/router-xyz.json");
+    const program::Program program = relief_program(machine, 1e-3 * static_cast<double>(state.range(0)));
+    const SimulationInput input{
+        .program = program,
+        .machine = machine,
+        .tools = {{0,
+                   1,
+                   *toolpath::body_of({.kind = toolpath::CutterKind::ball, .diameter = 1.0, .length = 5.0})}},
+        .stock = BoxStock{{0.0, 0.0, -10.0}, {100.0, 100.0, 0.0}},
+        .resolution = 0.1,
+        .most_bytes = 1'000'000'000};
+    for (auto _ : state) {
+        Simulator simulator(input, Rewind::by_keyframes, Progress());
+        simulator.advance_to(program.block_count(), Progress());
+        state.PauseTiming();
+        std::mt19937 random(1);
+        double slowest = 0.0;
+        for (int n = 0; n < 20; ++n) {
+            const double before = processor_time(RUSAGE_SELF);
+            const auto lines = static_cast<std::uint32_t>(program.block_count());
+            simulator.advance_to_line(static_cast<int>(random() % lines), Progress());
+            slowest = std::max(slowest, processor_time(RUSAGE_SELF) - before);
+        }
+        state.counters["to_a_line"] = slowest;
+        state.counters["keyframes_MB"] = 1e-6 * static_cast<double>(simulator.keyframe_bytes());
+        state.counters["MB"] = 1e-6 * static_cast<double>(simulator.field().bytes());
+        state.ResumeTiming();
+    }
+    state.counters["segments"] = program.block_count();
+}
+
 BENCHMARK(planar)
     ->ArgNames({"um", "segments"})
     ->Args({200, 5000})
@@ -77,6 +147,7 @@ BENCHMARK(planar)
     ->Args({100, 104'880})
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
+    ->MeasureProcessCPUTime()
     ->Iterations(1);
 BENCHMARK(twisted)
     ->ArgNames({"um", "segments"})
@@ -84,6 +155,14 @@ BENCHMARK(twisted)
     ->Args({100, 104'880})
     ->Unit(benchmark::kSecond)
     ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(1);
+BENCHMARK(relief)
+    ->ArgName("um")
+    ->Arg(100)
+    ->Unit(benchmark::kSecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
     ->Iterations(1);
 
 } // namespace

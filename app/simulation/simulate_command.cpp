@@ -134,7 +134,7 @@ int simulate(const SimulateOptions& options) {
         compared_part(work, input, found, options.tolerance, progress.part(0.7, 0.8));
     progress.report(0.8, "Looking for collisions");
     const simulation::CollisionReport collisions =
-        collisions_of(work, options, found, progress.part(0.8, 0.9));
+        collisions_of(work, options, input, found, progress.part(0.8, 0.9));
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     progress.report(0.9, "Making the mesh");
     const simulation::CutMesh mesh =

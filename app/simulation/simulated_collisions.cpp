@@ -169,6 +169,7 @@ void take_bodies(const SimulateOptions& options, SimulatedWork& work, const Prog
 
 CollisionReport collisions_of(const SimulatedWork& work,
                               const SimulateOptions& options,
+                              const simulation::SimulationInput& input,
                               const simulation::Simulation& found,
                               const Progress& progress) {
     std::vector<simulation::CollisionTool> tools;
@@ -181,7 +182,8 @@ CollisionReport collisions_of(const SimulatedWork& work,
                                          .bodies = work.bodies,
                                          .first_block = found.first_block,
                                          .clearance = options.clearance,
-                                         .part_allowance = options.tolerance},
+                                         .part_allowance = options.tolerance,
+                                         .removal = &input},
                                         progress);
 }
 

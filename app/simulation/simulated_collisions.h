@@ -29,9 +29,10 @@ void add_part(const std::filesystem::path& file, SimulatedWork& work, const Prog
 /// open fixture, one that looks inwards, and one that lies in the table.
 void take_bodies(const SimulateOptions& options, SimulatedWork& work, const Progress& progress);
 
-/// Throws Cancelled.
+/// `input` is what was simulated, with what was `found`. Throws Cancelled.
 [[nodiscard]] simulation::CollisionReport collisions_of(const SimulatedWork& work,
                                                         const SimulateOptions& options,
+                                                        const simulation::SimulationInput& input,
                                                         const simulation::Simulation& found,
                                                         const Progress& progress);
 

@@ -206,7 +206,8 @@ struct StockSimulation::Parts {
                                              .bodies = std::move(bodies),
                                              .first_block = first_block,
                                              .clearance = job.settings.clearance,
-                                             .part_allowance = job.settings.tolerance},
+                                             .part_allowance = job.settings.tolerance,
+                                             .removal = &input},
                                             progress);
     }
 

@@ -4,6 +4,9 @@
 #include "core/kinematics/forward.h"
 #include "core/simulation/internal/collision_pair.h"
 #include "core/simulation/internal/collision_pairs.h"
+#include "core/simulation/internal/remaining_stock.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +26,19 @@ struct PairEvent {
     std::size_t pair = 0;
     int block = 0;
     Approach approach;
+    bool first = false;            // nothing was looked at before
+    std::optional<double> depth{}; // of what is found in the remaining stock
 };
+
+/// A pair on a move; `first`: they may be in each other from the start.
+std::optional<Approach>
+approach_of(const CollisionPair& pair, const RelativeMotion& motion, double clearance, bool first) {
+    std::optional<Approach> found = pair.approach(motion, clearance);
+    if (first && !(found && found->contact) && pair.is_inside(motion)) {
+        found = Approach{0.0, true, {0.0, motion.at(0.0) * pair.ball().center}};
+    }
+    return found;
+}
 
 class CollisionRun {
 public:
@@ -50,7 +65,8 @@ public:
             if (std::ssize(moves) == blocks_at_a_time || n + 1 == count) {
                 look(moves);
                 moves.clear();
-                progress_.report(searched * (n + 1.0 - input_.first_block) / (count - input_.first_block));
+                done_ = searched * (n + 1.0 - input_.first_block) / (count - input_.first_block);
+                progress_.report(done_);
             }
         }
         measure();
@@ -59,7 +75,8 @@ public:
     }
 
 private:
-    static constexpr double searched = 0.8; // of the progress
+    static constexpr double searched = 0.8;   // of the progress
+    static constexpr int most_renewals = 200; // of the mesh of what is left: up to a second each
 
     struct Setup {
         int first_block = 0;
@@ -106,12 +123,8 @@ private:
             if (!first && motion->rests()) {
                 continue;
             }
-            std::optional<Approach> found = pair.approach(*motion, input_.clearance);
-            if (first && !(found && found->contact) && pair.is_inside(*motion)) {
-                found = Approach{0.0, true, {0.0, motion->at(0.0) * pair.ball().center}};
-            }
-            if (found) {
-                events.push_back({n, block, *found});
+            if (const auto found = approach_of(pair, *motion, input_.clearance, first)) {
+                events.push_back({n, block, *found, first});
             }
         }
         return events;
@@ -131,10 +144,69 @@ private:
         });
         for (std::size_t n = 0; n < moves.size(); ++n) {
             look_at_limits(moves[n]);
+            if (input_.removal != nullptr) {
+                compare_with_rest(events[n]);
+            }
             take(moves[n], events[n]);
             last_ = setup_at(moves[n]);
             ++report_.moves;
         }
+    }
+
+    /// Events with the uncut stock become those with what is left of it before their block, or go.
+    void compare_with_rest(std::vector<PairEvent>& events) {
+        std::vector<PairEvent> kept;
+        for (PairEvent& event : events) {
+            const Setup& setup = *setup_at(event.block);
+            if (!setup.pairs[event.pair].has_stock() || is_in_rest(setup, event)) {
+                kept.push_back(event);
+            }
+        }
+        events = std::move(kept);
+    }
+
+    bool is_in_rest(const Setup& setup, PairEvent& event) {
+        const Progress here = progress_.part(done_, done_);
+        if (!rest_) {
+            rest_.emplace(*input_.removal, here);
+        }
+        rest_->advance_to(event.block, here);
+        const CollisionPair& uncut = setup.pairs[event.pair];
+        const RelativeMotion motion = motion_of({&setup, event.pair, {}}, event.block);
+        while (rest_->mesh()) {
+            progress_.check();
+            const CollisionPair pair = uncut.with_stock(rest_->mesh());
+            const auto found = approach_of(pair, motion, input_.clearance, event.first);
+            if (!found) {
+                return false; // the mesh is all that is left, or more
+            }
+            event.approach = *found;
+            if (renewals_ == most_renewals || rest_->is_current_near(in_workpiece(setup, event))) {
+                event.depth = found->contact ? deepest_of(pair, motion, found->time) : 0.0;
+                return true;
+            }
+            rest_->renew(here);
+            if (++renewals_ == most_renewals) {
+                report_.unchecked.push_back(fmt::format(
+                    "from line {} on, machine bodies are compared with the stock that is left before "
+                    "it: later cuts may have removed what they meet",
+                    line_of(event.block)));
+            }
+        }
+        return false;
+    }
+
+    /// At a few moments from `begin` on.
+    static double deepest_of(const CollisionPair& pair, const RelativeMotion& motion, double begin) {
+        constexpr int moments = 9;
+        double deepest = -1.0, time = begin;
+        for (int k = 0; k < moments; ++k) {
+            const double t = begin + (1.0 - begin) * k / (moments - 1);
+            const double depth = pair.depth(motion.at(t), CollisionPair::Care::rough);
+            time = depth > deepest ? t : time;
+            deepest = std::max(deepest, depth);
+        }
+        return std::max(pair.depth(motion.at(time), CollisionPair::Care::close), 0.0);
     }
 
     void look_at_limits(int block) {
@@ -208,11 +280,16 @@ private:
         collision.time = shown->approach.time;
         collision.rapid =
             input_.program.blocks[static_cast<std::size_t>(shown->block)].kind == program::BlockKind::rapid;
-        collision.place = in_workpiece(row, *shown);
+        collision.place = in_workpiece(*row.setup, *shown);
         collision.last_line = line_of(row.events.back().block);
         collision.moves = static_cast<int>(row.events.size());
         collision.depth = contact ? 0.0 : shown->approach.at.distance;
-        if (contact) {
+        if (contact && shown->depth) {
+            const auto deepest = std::ranges::max_element(
+                row.events, {}, [](const PairEvent& event) { return event.depth.value_or(0.0); });
+            collision.depth = deepest->depth.value_or(0.0);
+            collision.deepest_block = deepest->block;
+        } else if (contact) {
             find_depth(row, collision);
         }
         collision.deepest_line = line_of(collision.deepest_block);
@@ -264,13 +341,13 @@ private:
         collision.depth = std::max(pair.depth(motion.at(time), CollisionPair::Care::close), 0.0);
     }
 
-    [[nodiscard]] Vec3 in_workpiece(const Row& row, const PairEvent& event) const {
-        const CollisionPair& pair = row.setup->pairs[row.pair];
+    [[nodiscard]] Vec3 in_workpiece(const Setup& setup, const PairEvent& event) const {
+        const CollisionPair& pair = setup.pairs[event.pair];
         const kinematics::AxisPositions now =
             before(event.block) + event.approach.time * (after(event.block) - before(event.block));
-        const Vec3 in_m = kinematics::carrier_motion(*row.setup->machine, now, pair.still_carrier()) *
-                          event.approach.at.place;
-        return kinematics::m_T_w(*row.setup->machine, now).inverse() * in_m;
+        const Vec3 in_m =
+            kinematics::carrier_motion(*setup.machine, now, pair.still_carrier()) * event.approach.at.place;
+        return kinematics::m_T_w(*setup.machine, now).inverse() * in_m;
     }
 
     using Key = std::tuple<const Setup*, std::size_t, bool>;
@@ -280,6 +357,9 @@ private:
     CollisionReport report_;
     std::vector<Setup> setups_;
     const Setup* last_ = nullptr;
+    std::optional<RemainingStock> rest_; // from the first event with the stock on
+    int renewals_ = 0;                   // of its mesh
+    double done_ = 0.0;                  // of the progress
     std::vector<Row> rows_;
     std::map<Key, std::size_t> open_;
     std::map<int, std::size_t> beyond_; // axes that are beyond a limit now, and their violation

@@ -6,6 +6,7 @@
 #include "core/kinematics/machine_model.h"
 #include "core/program/program.h"
 #include "core/simulation/collision_bodies.h"
+#include "core/simulation/simulation.h"
 #include "core/toolpath/profile.h"
 
 #include <memory>
@@ -36,6 +37,9 @@ struct CollisionInput {
     int first_block = 0;          ///< where all axes are known
     double clearance = 0.0;       ///< pairs that come nearer without contact are near misses; 0: none
     double part_allowance = 0.01; ///< cutter and shank may reach so deep into the part
+    /// What cuts the stock, by the same program: bodies are then compared with what is left of it before each
+    /// block. Null: with the uncut stock.
+    const SimulationInput* removal = nullptr;
 };
 
 /// Two bodies that meet, or come near, through one move or through several without another between them.
@@ -68,7 +72,7 @@ struct CollisionReport {
     int moves = 0;
 };
 
-/// Throws Cancelled.
+/// Throws Cancelled, and with `removal` as simulate().
 [[nodiscard]] CollisionReport check_collisions(const CollisionInput& input, const Progress& progress);
 
 } // namespace millwright::simulation

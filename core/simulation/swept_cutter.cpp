@@ -14,7 +14,7 @@ namespace {
 
 /// Turns that are convex nearly enough in two parts, rad (0.6 degrees).
 constexpr double fine_turn = 0.0105;
-constexpr int most_parts = 6 * 3;
+constexpr int most_parts = 6 * 4;
 
 bool is_unit(const Vec3& direction) {
     constexpr double rounding = 1e-6;
@@ -76,7 +76,7 @@ SweptCutter::SweptCutter(const BodyRay& body, const geometry::ToolPose& from, co
 }
 
 MovingPose SweptCutter::moving(double f) const {
-    // Series of sine and cosine: exact to 1e-16 for half of the largest turn.
+    // Series of sine and cosine: exact to 2e-13 for half of the largest turn.
     const double x = (f - 0.5) * motion_.turn;
     const double x2 = x * x;
     const double cosine = 1.0 - 0.5 * x2 * (1.0 - x2 / 12.0);

@@ -22,8 +22,8 @@ namespace millwright::simulation {
 
 /// By how much an end of a swept interval may lie within the true one along the line, mm.
 inline constexpr double sweep_tolerance = 2e-4;
-/// The largest turn of the axis in one step, rad (1.8 degrees). Moves that turn farther are divided.
-inline constexpr double largest_turn = 0.0315;
+/// The largest turn of the axis in one step, rad (2.4 degrees). Moves that turn farther are divided.
+inline constexpr double largest_turn = 0.042;
 
 inline constexpr Interval whole_line{-1e300, 1e300};
 

@@ -39,8 +39,20 @@ CollisionPair::CollisionPair(std::shared_ptr<const TurnedBody> moving,
       ball_(ball_around(*turned_)), contact_(-allowance), warned_(warned) {}
 
 CollisionPair::CollisionPair(const CollisionBody& moving, const CollisionBody& still)
-    : moving_mesh_(moving.mesh), moving_closed_(moving.closed), moving_name_(moving.name),
-      carrier_(moving.carrier), still_(still), ball_(ball_around(*moving.mesh)), contact_(mesh_contact) {}
+    : moving_mesh_(moving.mesh), moving_closed_(moving.closed), moving_role_(moving.role),
+      moving_name_(moving.name), carrier_(moving.carrier), still_(still), ball_(ball_around(*moving.mesh)),
+      contact_(mesh_contact) {}
+
+CollisionPair CollisionPair::with_stock(const std::shared_ptr<const CollisionMesh>& surface) const {
+    CollisionPair pair = *this;
+    if (still_.role == BodyRole::stock) {
+        pair.still_.mesh = surface;
+    } else {
+        pair.moving_mesh_ = surface;
+        pair.ball_ = ball_around(*surface);
+    }
+    return pair;
+}
 
 geometry::ToolPose CollisionPair::pose_at(const Frame& still_T_moving) const {
     return {still_T_moving * turned_->pose.tip, still_T_moving.linear() * turned_->pose.axis};

@@ -40,6 +40,12 @@ public:
     [[nodiscard]] bool moves_as(const CollisionPair& other) const {
         return carrier_ == other.carrier_ && still_.carrier == other.still_.carrier;
     }
+    /// Whether one of both is the stock.
+    [[nodiscard]] bool has_stock() const {
+        return still_.role == BodyRole::stock || moving_role_ == BodyRole::stock;
+    }
+    /// The same with this surface of the stock.
+    [[nodiscard]] CollisionPair with_stock(const std::shared_ptr<const CollisionMesh>& surface) const;
     /// Around the moving body.
     [[nodiscard]] const BodyBall& ball() const { return ball_; }
 
@@ -67,6 +73,7 @@ private:
     std::shared_ptr<const TurnedBody> turned_; ///< null: a mesh
     std::shared_ptr<const CollisionMesh> moving_mesh_;
     bool moving_closed_ = true;
+    BodyRole moving_role_ = BodyRole::machine;
     std::string moving_name_;
     char carrier_ = '\0';
     CollisionBody still_;

@@ -99,8 +99,8 @@ private:
         const PlaceInChain a = place_of(machine_, one.carrier), b = place_of(machine_, other.carrier);
         const bool both_work = one.role != BodyRole::machine && other.role != BodyRole::machine;
         const bool machines = both_machine(one, other);
-        const bool neighbours =
-            a.number == 0 || b.number == 0 ? std::abs(a.number - b.number) == 1 : a.head == b.head;
+        const bool one_side = a.head == b.head || a.number == 0 || b.number == 0;
+        const bool neighbours = one_side && std::abs(a.number - b.number) == 1;
         if (one.carrier == other.carrier || both_work || (machines && neighbours)) {
             return; // they never move against each other, or one guides the other
         }

@@ -130,15 +130,18 @@ bool TileCutter::may_reach(const ReadyStep& step) const {
     return range && !is_void({range->enter, range->leave});
 }
 
-/// Of all lines, between the step's bounds.
+/// Of the lines that the outline covers, between the step's bounds.
 bool TileCutter::find_material(const ReadyStep& step) {
+    tile_sweep().outline(step.motions[static_cast<std::size_t>(k_)], lines_);
+    std::fill_n(lines_.from, Tile::lines, 0.0);
+    std::fill_n(lines_.to, Tile::lines, -1.0);
     bool some = false;
-    for (std::size_t line = 0; line < Tile::lines; ++line) {
+    for_each_bit(lines_.reached, [&](std::size_t line) {
         const Interval found = material(line, step.bounds.min()[k_], step.bounds.max()[k_]);
         lines_.from[line] = found.from;
         lines_.to[line] = found.to;
         some = some || found.from < found.to;
-    }
+    });
     return some;
 }
 

@@ -117,15 +117,24 @@ namespace {
 #endif
 
 std::vector<TileSweep> runnable_sweeps() {
-    std::vector<TileSweep> found{{registers_of_2::look, registers_of_2::attempt, registers_of_2::search, 2}};
+    std::vector<TileSweep> found{
+        {registers_of_2::outline, registers_of_2::look, registers_of_2::attempt, registers_of_2::search, 2}};
 #if defined(LANES_WIDE)
     __builtin_cpu_init();
     if (__builtin_cpu_supports("avx2")) {
-        found.push_back({registers_of_4::look, registers_of_4::attempt, registers_of_4::search, 4});
+        found.push_back({registers_of_4::outline,
+                         registers_of_4::look,
+                         registers_of_4::attempt,
+                         registers_of_4::search,
+                         4});
     }
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
-        found.push_back({registers_of_8::look, registers_of_8::attempt, registers_of_8::search, 8});
+        found.push_back({registers_of_8::outline,
+                         registers_of_8::look,
+                         registers_of_8::attempt,
+                         registers_of_8::search,
+                         8});
     }
 #endif
     return found;

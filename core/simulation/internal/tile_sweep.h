@@ -84,7 +84,9 @@ struct LaneTries {
 
 /// The functions of the widest registers that this processor has.
 struct TileSweep {
-    /// Lines within the outline, and where they cross the body at both ends of the step.
+    /// Finds which lines the outline of the swept body covers: `reached`.
+    void (*outline)(const TileMotion& motion, TileLines& lines);
+    /// Where lines with material cross the body at both ends of the step.
     void (*look)(const TileMotion& motion, TileLines& lines);
     void (*attempt)(const TileMotion& motion, double f, LaneTries& tries);
     /// Eight searches, which are changed on the way.

@@ -245,7 +245,7 @@ TEST_P(Cutters, SweepWithinTwoMicrometresOfThousandsOfInstances) {
 
 TEST(SweptCutter, RefusesATurnThatIsTooLarge) {
     const BodyRay body(Profile({.flat = 1.0, .radius = 1.0, .top = 5.0}).shape());
-    EXPECT_THROW(SweptCutter(body, {}, turned({}, Vec3::Zero(), Vec3::UnitX(), 0.035)), Defect);
+    EXPECT_THROW(SweptCutter(body, {}, turned({}, Vec3::Zero(), Vec3::UnitX(), 1.1 * largest_turn)), Defect);
     EXPECT_THROW(SweptCutter(body, {}, {Vec3::Zero(), Vec3(0.0, 0.0, 2.0)}), Defect);
 }
 

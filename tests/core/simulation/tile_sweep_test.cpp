@@ -79,8 +79,11 @@ TEST(TileSweep, GivesTheSameBytesInRegistersOfEveryWidth) {
             }
             std::fill_n(lines.from, Tile::lines, -100.0);
             std::fill_n(lines.to, Tile::lines, 100.0);
+            TileLines covered = lines;
+            kinds.front().outline(motion, covered);
             TileLines seen = lines;
             kinds.front().look(motion, seen);
+            EXPECT_NE(covered.reached, 0U) << "step " << n;
             LaneTries tried = tries;
             kinds.front().attempt(motion, 0.4, tried);
             for (std::size_t i = 0; i < searches.size(); ++i) {
@@ -94,6 +97,9 @@ TEST(TileSweep, GivesTheSameBytesInRegistersOfEveryWidth) {
             kinds.front().search(motion, found.data());
             reached += seen.reached != 0 ? 1 : 0;
             for (const TileSweep& kind : kinds.subspan(1)) {
+                TileLines covered_too = lines;
+                kind.outline(motion, covered_too);
+                EXPECT_EQ(covered.reached, covered_too.reached) << kind.lanes_in_register << " step " << n;
                 TileLines seen_too = lines;
                 kind.look(motion, seen_too);
                 EXPECT_TRUE(same_bytes(seen, seen_too)) << kind.lanes_in_register << " step " << n;
