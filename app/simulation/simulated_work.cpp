@@ -199,6 +199,23 @@ void expect_no_reading(const SimulateOptions& options) {
     }
 }
 
+/// In place of the project's tool, where --tool names one.
+void take_tool_file(const SimulateOptions& options, project::Project& project) {
+    if (options.tools.size() > 1) {
+        throw UsageError("a project is cut with one tool", options.file, "name one tool file");
+    }
+    if (options.tools.empty()) {
+        return;
+    }
+    const simulation::ToolText parsed = simulation::parse_tool(options.tools.front());
+    if (parsed.body) {
+        throw UsageError("the program of a project is made for its tool",
+                         options.file,
+                         "give a tool file, from which the program is made anew");
+    }
+    project.tool = project::read_tool(parsed.file);
+}
+
 SimulatedWork
 work_of_project(const SimulateOptions& options, const std::stop_token& stop, const Progress& progress) {
     if (!options.machine.empty()) {
@@ -206,18 +223,7 @@ work_of_project(const SimulateOptions& options, const std::stop_token& stop, con
     }
     expect_no_reading(options);
     OpenedProject opened = open_project(options.file);
-    if (options.tools.size() > 1) {
-        throw UsageError("a project is cut with one tool", options.file, "name one tool file");
-    }
-    if (!options.tools.empty()) {
-        const simulation::ToolText parsed = simulation::parse_tool(options.tools.front());
-        if (parsed.body) {
-            throw UsageError("the program of a project is made for its tool",
-                             options.file,
-                             "give a tool file, from which the program is made anew");
-        }
-        opened.project.tool = project::read_tool(parsed.file);
-    }
+    take_tool_file(options, opened.project);
     const toolpath::Tool tool = project::tool_of(opened.project.tool);
     if (!tool.cutter) {
         throw Error("the project's tool is a point, which removes nothing",
