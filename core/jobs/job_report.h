@@ -13,7 +13,7 @@ struct JobReport {
     int blocks = 0;
     double elapsed = 0.0;      ///< s since the start
     double planned_time = 0.0; ///< of the whole job, s
-    bool answers = true;       ///< Capabilities::answers
+    bool answers = true;       ///< Capabilities::Reports::execution
     int line = 0; ///< of the listing, where the machine is as far as is known (`driver.block`); 0: not known
 
     /// How much of it is done, 0 to 1: by the plan, else by the line and how far

@@ -45,7 +45,7 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
         return sentences;
     }
     std::set<GridMethod> methods{program_grid(project)};
-    if (scope.comparisons) {
+    if (scope.compared.grids) {
         methods.insert(project::compared_methods.begin(), project::compared_methods.end());
     }
     for (const GridMethod method : methods) {
@@ -55,7 +55,7 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
             sentences.push_back(with_full_stop(sentence));
         }
     }
-    if (nodes > most_compared_nodes && scope.comparisons) {
+    if (nodes > most_compared_nodes && scope.compared.grids) {
         constexpr double gigabytes_per_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
         sentences.push_back(fmt::format("The path, program and motion of {} points need about {:.1f} GB.",
                                         nodes,

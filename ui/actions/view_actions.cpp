@@ -247,7 +247,7 @@ void add_window(Actions& actions) {
          "",
          ""},
         always,
-        [](ActionContext& context) { context.view_state.colors_shown = true; });
+        [](ActionContext& context) { context.view_state.dialogs.colors = true; });
     add(actions,
         {"view.search",
          "View",
@@ -256,7 +256,7 @@ void add_window(Actions& actions) {
          "Ctrl+K",
          icons::search},
         always,
-        [](ActionContext& context) { context.view_state.search_wanted = true; });
+        [](ActionContext& context) { context.view_state.dialogs.search = true; });
 }
 
 } // namespace

@@ -52,9 +52,8 @@ std::string StreamDriver::lost() const {
 
 Capabilities StreamDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
-    able.told_place = true;
-    able.tells_spindle = false;
-    able.answers = awaits_answers();
+    able.reports.position = able.reports.spindle = false;
+    able.reports.execution = awaits_answers();
     return able;
 }
 

@@ -14,7 +14,7 @@ namespace millwright::jobs::internal {
 [[nodiscard]] std::string all_blocks_text(int blocks);
 
 /// Of an outcome that has no sentence yet. `line`: where the machine was as far as is known, 0: not known;
-/// `answers`: Capabilities::answers.
+/// `answers`: Capabilities::Reports::execution.
 [[nodiscard]] std::string end_sentence(
     JobEnd end, const drivers::DriverStatus& status, const JobOutcome& outcome, int line, bool answers);
 
