@@ -355,7 +355,7 @@ void ConnectedController::say_what_is_not_measured(const jobs::Job& job) const {
 
 /// Grbl refuses M6; what a grblHAL does at it is not checked here.
 void ConnectedController::expect_tool_changes(const jobs::Job& job) const {
-    const auto calls = job.tool_change || !driver_->capabilities().tool_changes
+    const auto calls = job.tool_change || !driver_->capabilities().program.tool_changes
                            ? std::vector<jobs::ToolCall>()
                            : jobs::tool_calls(job.listing->text);
     if (!calls.empty()) {

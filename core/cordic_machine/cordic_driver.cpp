@@ -58,8 +58,8 @@ CordicDriver::CordicDriver(AxisPositions position,
 
 drivers::Capabilities CordicDriver::capabilities() const {
     drivers::Capabilities able = machine_.capabilities();
-    able.plans = true;
-    able.single_block = false; // its blocks are set-points, not those of the listing
+    able.takes = drivers::Capabilities::Takes::text;
+    able.program.single_block = false; // its blocks are set-points, not those of the listing
     able.dialect = gcode::Dialect::linuxcnc;
     return able;
 }

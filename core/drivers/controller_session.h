@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::drivers {
@@ -33,7 +34,7 @@ public:
         return usual;
     }
     /// Takes the bytes that shall be sent.
-    [[nodiscard]] virtual std::string take_output() = 0;
+    [[nodiscard]] virtual std::string take_output() { return std::exchange(output_, {}); }
     /// Takes what a person shall read of the conversation where bytes alone do not say it; number and time of
     /// the lines do not count.
     [[nodiscard]] virtual std::vector<ConsoleLine> take_console() { return {}; }
@@ -71,6 +72,8 @@ protected:
     ControllerSession() = default;
     ControllerSession(const ControllerSession&) = default;
     ControllerSession& operator=(const ControllerSession&) = default;
+
+    std::string output_; ///< that shall be sent
 };
 
 } // namespace millwright::drivers

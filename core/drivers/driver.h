@@ -28,32 +28,51 @@ namespace millwright::drivers {
 
 /// What a driver can do beyond running programs.
 struct Capabilities {
-    bool plans = false;                     ///< executes text, without a trajectory
-    bool points = false;                    ///< plays Work::points, without a trajectory, and nothing else
+    /// What it executes of Work.
+    enum class Takes {
+        trajectory, ///< of a program
+        text,       ///< without a trajectory
+        points      ///< Work::points, without a trajectory, and nothing else
+    };
+    enum class OverrideRange { none, feed, all }; ///< all: of rapids and spindle speed, too
+
+    struct ManualControl {
+        bool jog = false;
+        bool power = false; ///< motors get theirs from enable(), never by themselves
+        bool home = false;
+        bool command = false;        ///< MDI; spindle, coolant and work offsets go this way too (mdi_lines.h)
+        bool probe = false;          ///< G38.2 as a command
+        std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
+        std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
+    };
+    struct Reports {
+        bool position = true;  ///< false: a person enters it, stands_at()
+        bool execution = true; ///< false: only the sending of a block is known
+        bool spindle = true;   ///< whether it turns
+    };
+    struct ProgramControl {
+        bool check_mode = false;    ///< reads a program without moving: check_there()
+        bool single_block = false;  ///< can stand still after each block
+        bool optional_stop = false; ///< has a switch for M1 here
+        bool piecewise = false;     ///< gives a program to the controller bit by bit, and asks Work::ahead
+        bool tool_changes =
+            false; ///< stops for another tool where its controller does not: Work::tool_changes
+    };
+
+    Takes takes = Takes::trajectory;
     std::vector<program::ProgramAxis> axes; ///< that it moves; empty: those of any program
-    bool overrides = false;                 ///< of the feed
-    bool other_overrides = false;           ///< of rapids and spindle speed, too
-    bool jog = false;
-    std::string_view jog_axes{}; ///< letters of the axes that jog; empty: all
-    bool power = false;          ///< motors get theirs from enable(), never by themselves
-    bool home = false;
-    std::string_view why_no_home{}; ///< a sentence where it could, but is set up otherwise; else empty
-    bool tells_spindle = true;      ///< whether it turns
-    bool told_place = false;        ///< does not report its position: a person enters it, stands_at()
-    bool command = false;           ///< MDI; spindle, coolant and work offsets go this way too (mdi_lines.h)
-    bool check_mode = false;        ///< reads a program without moving: check_there()
-    bool probe = false;             ///< G38.2 as a command
-    bool settings = false;          ///< has a table of its own that can be changed
-    bool single_block = false;      ///< can stand still after each block
-    bool optional_stop = false;     ///< has a switch for M1 here
-    bool answers = true;            ///< tells what it executed; false: only the sending of a block is known
-    bool piecewise = false;         ///< gives a program to the controller bit by bit, and asks Work::ahead
-    bool mist = true;               ///< has M7
-    bool tool_changes = false; ///< stops for another tool where its controller does not: Work::tool_changes
-    bool laser = false;        ///< the controller is in the mode of a laser, in which feed moves burn
+    OverrideRange overrides = OverrideRange::none;
+    ManualControl manual;
+    Reports reports;
+    ProgramControl program;
+    bool mist = true;   ///< has M7
+    bool laser = false; ///< the controller is in the mode of a laser, in which feed moves burn
     std::string_view firmware = "Grbl";        ///< of a controller that speaks Grbl's protocol
     std::optional<gcode::Dialect> dialect{};   ///< in which it reads text
     std::span<const std::string_view> words{}; ///< of its single lines, to complete what is typed
+
+    [[nodiscard]] bool takes_text() const { return takes == Takes::text; }
+    [[nodiscard]] bool takes_points() const { return takes == Takes::points; }
 };
 
 /// What is known of the machine's limits: of each axis, machine coordinates, mm or rad, and per second.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace millwright::drivers {
@@ -67,6 +68,12 @@ struct MotorReading {
     friend bool operator==(const MotorReading&, const MotorReading&) = default;
 };
 
+struct Coolant {
+    bool mist = false, flood = false;
+
+    friend bool operator==(const Coolant&, const Coolant&) = default;
+};
+
 /// What became of the last command().
 struct CommandAnswer {
     enum class State { none, pending, done, refused };
@@ -74,6 +81,29 @@ struct CommandAnswer {
     int number = 0; ///< counts since connect()
     State state = State::none;
     std::string text; ///< what the controller said; of a refusal why, in plain words
+
+    [[nodiscard]] bool pending() const { return state == State::pending; }
+    /// That of the next command; gives its number.
+    int begin(State its_state = State::pending, std::string its_text = {}) {
+        state = its_state;
+        text = std::move(its_text);
+        return ++number;
+    }
+    /// That of a command which something else follows is not shown any more.
+    void forget() {
+        state = State::none;
+        text.clear();
+    }
+    void add_line(std::string_view line) { text.append(text.empty() ? "" : "\n").append(line); }
+    /// Does nothing unless pending.
+    void end(State its_state) { state = pending() ? its_state : state; }
+    /// The command did not get to its end. Does nothing unless pending.
+    void break_off(std::string_view why) {
+        if (pending()) {
+            state = State::refused;
+            text = why.empty() ? "stopped" : why;
+        }
+    }
 };
 
 /// A tool change that is made by the driver (Work::tool_changes).
@@ -119,7 +149,7 @@ struct DriverStatus {
     double feed = 0.0; ///< of the motion now, where the controller tells it, mm/s
     gcode::SpindleTurning spindle = gcode::SpindleTurning::stopped; ///< as commanded
     double spindle_rpm = 0.0;                                       ///< where the controller tells it
-    bool mist = false, flood = false;
+    Coolant coolant;
     int tool = 0; ///< in the spindle, where the controller tells it
     Overrides overrides;
     Inputs inputs;

@@ -72,18 +72,18 @@ std::string modal_lines(const ModalState& state, Dialect dialect) {
     text += tool_offset(state);
     if (linuxcnc) {
         text += path_code(state);
-        text += state.absolute_centres ? "G90.1\n" : "G91.1\n";
+        text += state.arc_distance == gcode::DistanceMode::absolute ? "G90.1\n" : "G91.1\n";
         text += state.diameter_mode ? "G7\n" : "G8\n";
-        text += state.retract_to_r ? "G99\n" : "G98\n";
+        text += state.cycle_return == gcode::CycleReturn::r_level ? "G99\n" : "G98\n";
     }
     text += fmt::format("{}\n", feed_code(state.feed_mode));
     if (state.feed_rate > 0.0 && state.feed_mode != FeedMode::inverse_time) {
         text += number_word('F', state.feed_rate) + "\n";
     }
-    if (state.spindle_speed > 0.0 && !state.constant_surface_speed) {
+    if (state.spindle_speed > 0.0 && state.spindle_mode == gcode::SpindleMode::constant_speed) {
         text += number_word('S', state.spindle_speed) + "\n";
     }
-    return text + (state.incremental ? "G91\n" : "G90\n");
+    return text + (state.distance == gcode::DistanceMode::incremental ? "G91\n" : "G90\n");
 }
 
 } // namespace millwright::drivers

@@ -16,6 +16,16 @@ inline constexpr double mm_per_inch = 25.4;
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_revolution };
 enum class SpindleTurning : std::uint8_t { stopped, clockwise, counterclockwise };
 enum class CutterSide : std::uint8_t { off, right, left };
+enum class DistanceMode : std::uint8_t { absolute, incremental };
+/// Whether the S word is the spindle's speed (G97), or that of the surface past the tool (G96).
+enum class SpindleMode : std::uint8_t { constant_speed, constant_surface_speed };
+/// Where a canned cycle ends: at the height before the cycles (G98) or at its R word (G99).
+enum class CycleReturn : std::uint8_t { initial_level, r_level };
+
+/// Which of them are enabled, by M48 to M53.
+struct OverrideSwitches {
+    bool feed = true, speed = true, adaptive_feed = false, feed_hold = true;
+};
 
 /// Cutter radius compensation, G40 to G42.1.
 struct CutterCompensation {
@@ -46,10 +56,10 @@ struct ModalState {
     int motion = 800;          ///< in tenths; 800, G80: none
     Plane plane = Plane::xy;
     LengthUnit unit = LengthUnit::mm;
-    bool incremental = false;      ///< G91
-    bool absolute_centres = false; ///< G90.1
-    bool diameter_mode = false;    ///< G7
-    bool retract_to_r = true;      ///< G99
+    DistanceMode distance = DistanceMode::absolute;        ///< G90, G91
+    DistanceMode arc_distance = DistanceMode::incremental; ///< of I J K: G90.1, G91.1
+    bool diameter_mode = false;                            ///< G7
+    CycleReturn cycle_return = CycleReturn::r_level;
     FeedMode feed_mode = FeedMode::per_minute;
     double feed_rate = 0.0;
     program::PathMode path_mode = program::PathMode::continuous;
@@ -57,9 +67,9 @@ struct ModalState {
     double naivecam_tolerance = 0.0;
     SpindleTurning spindle = SpindleTurning::stopped;
     double spindle_speed = 0.0;
-    bool constant_surface_speed = false; ///< G96
+    SpindleMode spindle_mode = SpindleMode::constant_speed;
     bool mist = false, flood = false;
-    bool feed_override = true, speed_override = true, adaptive_feed = false, feed_hold = true;
+    OverrideSwitches overrides;
     int selected_tool = 0;  ///< number, by T
     int length_tool = 0;    ///< whose length G43 has put in force; 0: none, or one that has no number
     int selected_row = 0;   ///< in the tool table; 0: none

@@ -62,7 +62,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
     throw_first_with_count(preflight(asked));
     driver_.connect();
     const drivers::Capabilities able = driver_.capabilities();
-    const Job job = able.plans ? for_axes_of(asked, able.axes) : asked;
+    const Job job = able.takes_text() ? for_axes_of(asked, able.axes) : asked;
     const drivers::DriverStatus before = driver_.status();
     expect_rest(before);
     check_position(job, before);
@@ -89,7 +89,7 @@ JobOutcome Dispatcher::run(const Job& asked, const Progress& progress, const Lis
                                  std::move(envelope),
                                  std::move(estimate));
     drivers::Work work{job.program, trajectory, job.listing, {}, job.points, std::move(changes)};
-    if (able.piecewise) {
+    if (able.program.piecewise) {
         work.ahead = running.ahead();
     }
     return to_the_end(running, std::move(work), progress.part(planning, 1.0), listener);
@@ -126,12 +126,13 @@ void Dispatcher::expect_rest(const drivers::DriverStatus& before) const {
 }
 
 void Dispatcher::expect_fit(const Job& job, const drivers::Capabilities& able) const {
-    if (job.program == nullptr && !able.plans) {
+    if (job.program == nullptr && !able.takes_text()) {
         throw Error("the " + driver_.name() + " driver cannot run G-code that Millwright did not generate");
     }
-    if ((job.points != nullptr) != able.points) {
-        throw Error(fmt::format(
-            "the {} driver {}", driver_.name(), able.points ? "runs points only" : "cannot run points"));
+    if ((job.points != nullptr) != able.takes_points()) {
+        throw Error(fmt::format("the {} driver {}",
+                                driver_.name(),
+                                able.takes_points() ? "runs points only" : "cannot run points"));
     }
 }
 
@@ -153,13 +154,13 @@ LogStart Dispatcher::start_of(const Job& job,
             .from_line = job.from_line,
             .position_confirmed = before.position_confirmed,
             .firmware = driver_.firmware(),
-            .answers = able.answers};
+            .answers = able.reports.execution};
 }
 
 /// Whole programs count from stored offsets, and these from what the controller takes for its position; a
 /// line in the middle is gone to by that in any case.
 void Dispatcher::check_position(const Job& job, const drivers::DriverStatus& status) const {
-    if (job.from_line > 1 && !status.position_known && driver_.capabilities().told_place) {
+    if (job.from_line > 1 && !status.position_known && !driver_.capabilities().reports.position) {
         throw Error(fmt::format("the machine does not report its position, and none was entered: line {} "
                                 "could start at the wrong position",
                                 job.from_line),
@@ -237,7 +238,7 @@ internal::PositionEnvelope Dispatcher::check(const Job& job,
                                              const drivers::DriverStatus& before,
                                              internal::PathEstimate& estimate,
                                              std::optional<drivers::ToolChanges>& changes) const {
-    if (!able.plans || !able.dialect) {
+    if (!able.takes_text() || !able.dialect) {
         return {};
     }
     const std::vector<drivers::StoredOffset> offsets = driver_.stored_offsets();
@@ -249,7 +250,7 @@ internal::PositionEnvelope Dispatcher::check(const Job& job,
                                         offsets,
                                         before.modes,
                                         able.mist,
-                                        able.piecewise,
+                                        able.program.piecewise,
                                         able.firmware,
                                         watched_lines(job)});
     if (job.program == nullptr) { // else it was checked block by block

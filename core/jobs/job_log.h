@@ -25,7 +25,7 @@ struct LogStart {
     int from_line = 1;   ///< of the program's file; more than 1: it was not run from its beginning
     std::string position_confirmed{}; ///< DriverStatus::position_confirmed
     std::string firmware{};           ///< Driver::firmware()
-    bool answers = true;              ///< Capabilities::answers
+    bool answers = true;              ///< Capabilities::Reports::execution
 
     friend bool operator==(const LogStart&, const LogStart&) = default;
 };

@@ -14,7 +14,7 @@ struct JobReport {
     int blocks = 0;
     double elapsed = 0.0;      ///< s since the start
     double planned_time = 0.0; ///< of the whole job, s
-    bool answers = true;       ///< Capabilities::answers
+    bool answers = true;       ///< Capabilities::Reports::execution
     int line = 0; ///< of the listing, where the machine is as far as is known (`driver.block`); 0: not known
 
     /// How much of it is done, 0 to 1: by the plan, else by the line and how far
@@ -35,7 +35,7 @@ struct JobReport {
 [[nodiscard]] std::string all_blocks_text(int blocks);
 
 /// Of an outcome that has no sentence yet. `line`: where the machine was as far as is known, 0: not known;
-/// `answers`: Capabilities::answers.
+/// `answers`: Capabilities::Reports::execution.
 [[nodiscard]] std::string end_sentence(
     JobEnd end, const drivers::DriverStatus& status, const JobOutcome& outcome, int line, bool answers);
 

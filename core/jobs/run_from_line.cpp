@@ -179,7 +179,7 @@ ModalState state_before(
     for (int next = 1; next < line; ++next) {
         const bool more = reader.step();
         const std::string words = drivers::stripped_line(lines[static_cast<std::size_t>(next) - 1]);
-        known.take(words, reader.state().incremental);
+        known.take(words, reader.state().distance == gcode::DistanceMode::incremental);
         if (has_code(words, "G10") || has_code(words, "G92") || has_code(words, "G52")) {
             refuse_start(file,
                          next,
@@ -220,7 +220,7 @@ void check_state(const ModalState& state,
     if (state.motion >= first_cycle && state.motion <= last_cycle && state.motion != no_motion) {
         refuse_start(file, line, "a canned cycle is active here", "start at its first line, or after G80");
     }
-    if (state.constant_surface_speed) {
+    if (state.spindle_mode == gcode::SpindleMode::constant_surface_speed) {
         refuse_start(file, line, "constant surface speed is active here (G96)");
     }
     const std::string text = drivers::stripped_line(first_line);
@@ -235,7 +235,7 @@ void check_state(const ModalState& state,
 /// In one line: all of these are of different modal groups.
 std::string modes_line(const ModalState& state, Dialect dialect) {
     ModalState absolute = state;
-    absolute.incremental = false;
+    absolute.distance = gcode::DistanceMode::absolute;
     std::string text = drivers::modal_lines(absolute, dialect);
     std::string line;
     for (const char c : text) {
@@ -293,7 +293,7 @@ double plunge_feed(const ModalState& state, const Watcher& watcher) {
 void restore_modes(const ModalState& state, double plunge, std::vector<std::string>& lines) {
     const bool by_the_minute = state.feed_mode == gcode::FeedMode::per_minute;
     std::string line = state.motion == 0 ? "G0" : "G1";
-    line += state.incremental ? " G91" : "";
+    line += state.distance == gcode::DistanceMode::incremental ? " G91" : "";
     if (by_the_minute && state.feed_rate > plunge) {
         line += " " + drivers::number_word('F', state.feed_rate);
     }

@@ -158,7 +158,7 @@ public:
             const int motion = before.modes.motion;
             constexpr int clockwise = 20;
             constexpr int none = 800;
-            if (before.modes.incremental) {
+            if (before.modes.distance == gcode::DistanceMode::incremental) {
                 add(before.line,
                     "G91 is active at this tool change: the next line would count from wherever the machine "
                     "is then",
@@ -356,7 +356,7 @@ std::vector<Diagnostic> tool_change_faults(const Job& job,
         return {};
     }
     Faults faults(job, place);
-    if (!able.tool_changes) {
+    if (!able.program.tool_changes) {
         faults.add(0, "the controller of this machine changes tools itself", "omit the option");
         return faults.take();
     }

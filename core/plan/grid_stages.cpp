@@ -86,7 +86,7 @@ Stage grid_stage(GridMethod method, const project::Project& project, const Scope
     const bool compared = row_of(method).compared;
     Stage stage{.key = grid_key(method), .title = row_of(method).title, .share = row_of(method).share};
     stage.asked = of_program || is_uniform ||
-                  (scope.comparisons && compared && !is_comparison_skipped(project, method));
+                  (scope.compared.grids && compared && !is_comparison_skipped(project, method));
     stage.reads = {{StageKind::cutting_setup}};
     stage.same = [method](const Source& then, const Source& now) {
         return same_nodes(then.project.grid, now.project.grid) &&

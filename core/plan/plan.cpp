@@ -44,7 +44,7 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
         return sentences;
     }
     for (const GridMethod method : project::every_grid_method) {
-        const bool made = method == program_grid(project) || (scope.comparisons && row_of(method).compared);
+        const bool made = method == program_grid(project) || (scope.compared.grids && row_of(method).compared);
         const std::string sentence = !made || is_comparison_skipped(project, method)
                                          ? std::string()
                                          : memory_sentence(method, project.grid);
@@ -52,7 +52,7 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
             sentences.push_back(with_full_stop(sentence));
         }
     }
-    if (nodes > most_compared_nodes && scope.comparisons) {
+    if (nodes > most_compared_nodes && scope.compared.grids) {
         constexpr double gigabytes_per_point = 3.9e-6; // `plan` of the dome with a million, nothing compared
         sentences.push_back(fmt::format("The path, program and motion of {} points need about {:.1f} GB.",
                                         nodes,

@@ -70,20 +70,26 @@ struct Plan {
 
 /// What of a plan is wanted beside the program and what it needs.
 struct Scope {
-    bool comparisons = false;   ///< the grids of the methods that are compared
-    bool times = false;         ///< of the grids that are there
-    bool weight = false;        ///< of the elliptic functional
-    bool cut = false;           ///< what the cutter does on the program's path
-    bool compared_cuts = false; ///< and on those of the other grids that are there
+    struct Compared {
+        bool grids = false; ///< of the methods that are compared
+        bool cuts = false;  ///< what the cutter does on the paths of the other grids that are there
+
+        friend bool operator==(const Compared&, const Compared&) = default;
+    };
+
+    Compared compared;
+    bool times = false;  ///< of the grids that are there
+    bool weight = false; ///< of the elliptic functional
+    bool cut = false;    ///< what the cutter does on the program's path
     bool unsequenced = false;
 
     /// What either of them wants.
     [[nodiscard]] constexpr Scope with(const Scope& other) const {
-        return {.comparisons = comparisons || other.comparisons,
+        return {.compared = {.grids = compared.grids || other.compared.grids,
+                             .cuts = compared.cuts || other.compared.cuts},
                 .times = times || other.times,
                 .weight = weight || other.weight,
                 .cut = cut || other.cut,
-                .compared_cuts = compared_cuts || other.compared_cuts,
                 .unsequenced = unsequenced || other.unsequenced};
     }
 
@@ -96,12 +102,11 @@ struct Scope {
 
 inline constexpr Scope Scope::program{.times = true, .unsequenced = true};
 inline constexpr Scope Scope::report{
-    .comparisons = true, .times = true, .weight = true, .cut = true, .unsequenced = true};
-inline constexpr Scope Scope::everything{.comparisons = true,
+    .compared = {.grids = true}, .times = true, .weight = true, .cut = true, .unsequenced = true};
+inline constexpr Scope Scope::everything{.compared = {.grids = true, .cuts = true},
                                          .times = true,
                                          .weight = true,
                                          .cut = true,
-                                         .compared_cuts = true,
                                          .unsequenced = true};
 
 /// What making the grids takes that have 10,000 nodes or more, a sentence each, to be shown before it begins.

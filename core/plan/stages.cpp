@@ -294,7 +294,7 @@ Stage unsequenced_stage(const project::Project& project, const Scope& scope) {
 Stage compared_cut_stage(GridMethod method, const Scope& scope) {
     return {.key = {StageKind::compared_cut, method},
             .share = 0.1,
-            .asked = scope.compared_cuts,
+            .asked = scope.compared.cuts,
             .reads = {the_cutting_setup, grid_key(method)},
             .same = same_tool_and_program,
             .make =

@@ -225,8 +225,8 @@ void AppController::perform(ActionQueue& asked, bool focused) {
     for (const ActionQueue::Request& request : asked.take()) {
         guarded([&] { request(*this); });
     }
-    view_state_.quit_wanted =
-        view_state_.quit_wanted && (jobs_->view().running || arm_under_power(connection_->view()));
+    view_state_.dialogs.quit =
+        view_state_.dialogs.quit && (jobs_->view().running || arm_under_power(connection_->view()));
     const bool allowed = focused && !look().asks() && !view_state_.quit;
     guarded([&] { jog_->follow(wish, allowed); });
     queue_.rest();

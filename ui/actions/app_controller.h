@@ -68,10 +68,10 @@ public:
     /// ViewState::replacing, if the project's file is not what was read or saved there last.
     void save(const std::filesystem::path& file);
     /// Writes the project's program where it was written last, and asks for a file the first time. Asks, as
-    /// save() does, if something else is there now; and before, by ViewState::gouges_asked, if it gouges the
+    /// save() does, if something else is there now; and before, by OpenDialogs::gouges, if it gouges the
     /// part. Throws Error.
     void write_program();
-    /// The answer to ViewState::gouges_asked: it is written. Throws Error.
+    /// The answer to OpenDialogs::gouges: it is written. Throws Error.
     void write_gouging_program();
     /// To a file that a person named. Throws Error.
     void write_program(const std::filesystem::path& file);

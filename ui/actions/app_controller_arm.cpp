@@ -119,7 +119,7 @@ void AppController::follow_arm_work(const FrameState& now) {
     }
     const ProgramOfMachine shown_one = now.arm_program();
     const bool shown =
-        view_state_.manual.arm_path && view_state_.workspace == Workspace::arm && shown_one.program;
+        view_state_.manual.arm_path.shown && view_state_.workspace == Workspace::arm && shown_one.program;
     arm_->look_at_path(shown ? std::optional(ArmPathWish{shown_one.program,
                                                          shown_one.machine,
                                                          arm_->look(),

@@ -67,14 +67,14 @@ void AppController::put_project(const fs::path& whole) {
 }
 
 void AppController::write_program() {
-    view_state_.gouges_asked = !look().gouge_warning().empty();
-    if (!view_state_.gouges_asked) {
+    view_state_.dialogs.gouges = !look().gouge_warning().empty();
+    if (!view_state_.dialogs.gouges) {
         write_gouging_program();
     }
 }
 
 void AppController::write_gouging_program() {
-    view_state_.gouges_asked = false;
+    view_state_.dialogs.gouges = false;
     const auto& last = document().program;
     if (!last) {
         view_state_.file_prompt = FilePrompt::write_program;

@@ -34,7 +34,7 @@ Permission moves(const FrameState& now) {
 }
 
 Permission can_enable(const FrameState& now) {
-    if (!now.connection.connected() || !now.connection.can.power) {
+    if (!now.connection.connected() || !now.connection.can.manual.power) {
         return Permission::refused("No controller is connected whose motors can be enabled here.");
     }
     if (const Permission in_sight = seen(now); !in_sight.allowed) {

@@ -63,8 +63,8 @@ Permission can_home(const FrameState& now) {
     if (const Permission in_sight = seen(now); !in_sight.allowed) {
         return in_sight;
     }
-    if (!now.connection.can.home) {
-        const std::string_view why = now.connection.can.why_no_home;
+    if (!now.connection.can.manual.home) {
+        const std::string_view why = now.connection.can.manual.why_no_home;
         return Permission::refused(why.empty() ? "This machine cannot home." : std::string(why));
     }
     if (now.connection.status.link_lost) {
@@ -90,7 +90,7 @@ Permission can_trust(const FrameState& now) {
     if (const Permission connected = can_disconnect(now); !connected.allowed) {
         return connected;
     }
-    if (now.connection.can.told_place) {
+    if (!now.connection.can.reports.position) {
         return Permission::refused("This machine does not report its position: enter it.");
     }
     return now.connection.status.position_doubt.empty() ? Permission::refused("The position is not in doubt.")
@@ -101,7 +101,7 @@ Permission can_single(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
-    return now.connection.can.single_block
+    return now.connection.can.program.single_block
                ? Permission{}
                : Permission::refused("This machine cannot stop after each block.");
 }
@@ -110,7 +110,7 @@ Permission can_arm(const FrameState& now) {
     if (const Permission connected = is_connected(now); !connected.allowed) {
         return connected;
     }
-    return now.connection.can.jog ? Permission{} : Permission::refused("This machine cannot jog.");
+    return now.connection.can.manual.jog ? Permission{} : Permission::refused("This machine cannot jog.");
 }
 
 void add_links(Actions& actions) {

@@ -31,7 +31,7 @@ Permission is_replacing(const FrameState& now) {
 }
 
 Permission is_gouging(const FrameState& now) {
-    return now.view_state.gouges_asked ? Permission{} : Permission::refused("No program would be written.");
+    return now.view_state.dialogs.gouges ? Permission{} : Permission::refused("No program would be written.");
 }
 
 Permission can_reload(const FrameState& now) {
@@ -42,7 +42,7 @@ Permission can_reload(const FrameState& now) {
 }
 
 Permission is_quitting(const FrameState& now) {
-    return now.view_state.quit_wanted
+    return now.view_state.dialogs.quit
                ? Permission{}
                : Permission::refused("Neither a job nor an arm keeps Millwright open.");
 }
@@ -118,7 +118,7 @@ void add_gouge_answers(Actions& actions) {
     add(actions,
         {"gouges.cancel", dialog_menu, "Cancel", "No program is written.", "", ""},
         is_gouging,
-        [](ActionContext& context) { context.view_state.gouges_asked = false; });
+        [](ActionContext& context) { context.view_state.dialogs.gouges = false; });
     add(actions,
         {"gouges.show",
          dialog_menu,
@@ -128,7 +128,7 @@ void add_gouge_answers(Actions& actions) {
          ""},
         is_gouging,
         [](ActionContext& context) {
-            context.view_state.gouges_asked = false;
+            context.view_state.dialogs.gouges = false;
             context.view_state.workspace = Workspace::toolpath;
             context.view_state.panes.lower_shown = true;
             context.view_state.lower_tab_now() = LowerTab::gouges;
@@ -136,7 +136,7 @@ void add_gouge_answers(Actions& actions) {
     add(actions,
         {"running_job.stay", dialog_menu, "Stay open", "Everything continues.", "", ""},
         is_quitting,
-        [](ActionContext& context) { context.view_state.quit_wanted = false; });
+        [](ActionContext& context) { context.view_state.dialogs.quit = false; });
     add(actions,
         {"running_job.stop",
          dialog_menu,
@@ -146,7 +146,7 @@ void add_gouge_answers(Actions& actions) {
          ""},
         is_quitting,
         [](ActionContext& context) {
-            context.view_state.quit_wanted = false;
+            context.view_state.dialogs.quit = false;
             context.jobs.stop();
             if (arm_moves(context.now.connection)) {
                 context.app.connection().tell([](drivers::Driver& driver) { driver.stop(); });

@@ -122,7 +122,7 @@ void add_quit_action(Actions& actions) {
         always,
         [](ActionContext& context) {
             if (context.now.job.running || arm_under_power(context.now.connection)) {
-                context.view_state.quit_wanted = true;
+                context.view_state.dialogs.quit = true;
             } else {
                 context.app.quit();
             }

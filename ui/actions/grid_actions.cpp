@@ -74,7 +74,7 @@ template <SurfaceToolKind kind> void take_in_hand(ActionContext& context) {
         view_state.workspace = Workspace::grid;
     }
     if (kind == SurfaceToolKind::brush) {
-        view_state.layers_now().weight = true;
+        view_state.layers_now().colored.weight = true;
     }
     const project::Project& project = context.now.project;
     const bool counts = plan::uses_weight(plan::program_grid(project));

@@ -16,7 +16,7 @@ public:
     [[nodiscard]] const ActionInfo& info() const override { return info_; }
     [[nodiscard]] widgets::Permission permission(const FrameState&) const override { return {}; }
     [[nodiscard]] bool is_on(const FrameState& now) const override {
-        return now.view_state.layers_now().*which_.shown;
+        return which_.is_on(now.view_state.layers_now());
     }
     void run(ActionContext& context) const override {
         viewport::Layers& layers = context.view_state.layers_now();

@@ -47,7 +47,7 @@ Permission machine_ready(const FrameState& now) {
 /// position is entered by hand makes every move from that position.
 Permission position_ready(const FrameState& now, int from_line) {
     const std::string& doubt = now.connection.status.position_doubt;
-    if (now.connection.connected() && now.connection.can.told_place) {
+    if (now.connection.connected() && !now.connection.can.reports.position) {
         const bool assumed = from_line > 1 && !now.connection.status.position_known;
         return assumed || !doubt.empty()
                    ? Permission::refused(
@@ -221,7 +221,7 @@ Permission suits_machine(const FrameState& now, const jobs::QueuedJob& job) {
             job.name +
             " was added before Millwright was restarted: \u201cOpen program\u201d reads it again.");
     }
-    const bool needs_motion = !(now.connection.connected() && now.connection.can.plans);
+    const bool needs_motion = !(now.connection.connected() && now.connection.can.takes_text());
     return needs_motion == job.has_motion
                ? Permission{}
                : Permission::refused(job.name + " was added for another type of machine: \u201cOpen "
@@ -337,7 +337,7 @@ void start_asked(ActionContext& context) {
 
 Permission can_check_there(const FrameState& now) {
     const bool reads =
-        now.view_state.start && now.view_state.start->job->listing && now.connection.can.check_mode;
+        now.view_state.start && now.view_state.start->job->listing && now.connection.can.program.check_mode;
     return reads ? machine_ready(now) : Permission::refused("This controller has no check mode.");
 }
 
@@ -350,7 +350,7 @@ void check_there(ActionContext& context) {
 }
 
 Permission can_trace(const FrameState& now) {
-    return now.connection.can.plans && now.connection.can.dialect
+    return now.connection.can.takes_text() && now.connection.can.dialect
                ? can_start(now)
                : Permission::refused("This controller does not execute G-code itself.");
 }

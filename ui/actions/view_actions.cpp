@@ -34,7 +34,7 @@ template <project::GridMethod method> void show(ActionContext& context) {
 /// A grid to compare with is made when it is looked at.
 bool is_made_when_shown(const FrameState& now, project::GridMethod method) {
     return now.plan && !now.plan->plan.grid(method).failure &&
-           !wanted_plan(now.view_state, now.project).comparisons &&
+           !wanted_plan(now.view_state, now.project).compared.grids &&
            !plan::is_comparison_skipped(now.project, method) && row_of(method).compared;
 }
 
@@ -245,7 +245,7 @@ void add_window(Actions& actions) {
          "",
          ""},
         always,
-        [](ActionContext& context) { context.view_state.colors_shown = true; });
+        [](ActionContext& context) { context.view_state.dialogs.colors = true; });
     add(actions,
         {"view.search",
          "View",
@@ -254,7 +254,7 @@ void add_window(Actions& actions) {
          "Ctrl+K",
          icons::search},
         always,
-        [](ActionContext& context) { context.view_state.search_wanted = true; });
+        [](ActionContext& context) { context.view_state.dialogs.search = true; });
 }
 
 } // namespace

@@ -121,7 +121,7 @@ std::string why_none(const FrameState& now) {
     if (now.arm_program().program) {
         return {};
     }
-    if (!now.view_state.manual.arm_path_of_file || !now.opened) {
+    if (!now.view_state.manual.arm_path.of_file || !now.opened) {
         return "The project has no program yet.";
     }
     return now.opened->no_motion.empty() ? "Reading the program \u2026" : now.opened->no_motion;
@@ -131,10 +131,10 @@ void source_field(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!now.opened) {
         return;
     }
-    const int source = now.view_state.manual.arm_path_of_file ? 1 : 0;
+    const int source = now.view_state.manual.arm_path.of_file ? 1 : 0;
     if (const auto chosen = ui.segmented("source", "Program", source, sources)) {
         ask.show([of_file = *chosen == 1](actions::ViewState& view_state) {
-            view_state.manual.arm_path_of_file = of_file;
+            view_state.manual.arm_path.of_file = of_file;
         });
     }
 }
@@ -147,12 +147,12 @@ void arm_path_fields(Ui& ui, const FrameState& now, ActionQueue& ask, const acti
         return;
     }
     source_field(ui, now, ask);
-    const bool shown = now.view_state.manual.arm_path;
+    const bool shown = now.view_state.manual.arm_path.shown;
     const std::string none = why_none(now);
     const auto can_show = none.empty() ? widgets::Permission{} : widgets::Permission::refused(none);
     if (const auto on =
             ui.toggle("shown", "Show the program", shown, "Green: reachable; red: out of reach", can_show)) {
-        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.arm_path = on; });
+        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.arm_path.shown = on; });
     }
     if (!shown || !none.empty()) {
         return;

@@ -391,7 +391,7 @@ void GridPanel::draw_elliptic(Ui& ui, const FrameState& now, ActionQueue& ask) c
     expression_field(ui, ask, input);
     if (ui.toggle("show_weight",
                   "Show weight",
-                  now.view_state.layers_now().weight,
+                  now.view_state.layers_now().colored.weight,
                   "Colour the surface by the weight at the start of the adaptation")) {
         ask.run("view.layer_weight");
     }

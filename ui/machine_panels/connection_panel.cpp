@@ -57,7 +57,7 @@ std::string advice(const FrameState& now) {
     if (const std::string_view of_driver = now.connection.row().in_alarm; !of_driver.empty()) {
         return std::string(of_driver);
     }
-    return now.connection.can.home
+    return now.connection.can.manual.home
                ? "Inspect the machine, then home it - or unlock it if you are sure the position is correct."
                : "Inspect the machine, then unlock it.";
 }
@@ -274,7 +274,7 @@ void ConnectionPanel::draw_messages(Ui& ui, const FrameState& now, ActionQueue& 
     }
     if (!machine.status.position_doubt.empty()) {
         ui.note(drivers::doubt_sentence(machine.status.position_doubt));
-        if (!machine.can.told_place) {
+        if (machine.can.reports.position) {
             action_button(ui, now, ask, catalogue_, "machine.trust_position");
         }
     }

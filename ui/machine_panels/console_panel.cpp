@@ -52,7 +52,7 @@ Permission can_type(const FrameState& now) {
     if (!now.connection.connected()) {
         return Permission::refused("No machine is connected.");
     }
-    if (!now.connection.can.command) {
+    if (!now.connection.can.manual.command) {
         return Permission::refused("This machine does not accept single commands.");
     }
     return {};
@@ -83,7 +83,7 @@ void ConsolePanel::follow(const FrameState& now) {
     if (!console) {
         return;
     }
-    console->keep_reports(now.view_state.manual.show_reports);
+    console->keep_reports(now.view_state.manual.console.show_reports);
     next_ = console->read(next_, lines_);
     if (!start_known_ && !lines_.empty()) {
         start_ = lines_.front().time;
@@ -95,7 +95,7 @@ void ConsolePanel::follow(const FrameState& now) {
     shown_.clear();
     for (std::size_t n = 0; n < lines_.size(); ++n) {
         const bool found = wanted_.empty() || TextPattern(wanted_).next(lines_[n].text, 0);
-        if (found && (now.view_state.manual.show_reports || !is_report(lines_[n]))) {
+        if (found && (now.view_state.manual.console.show_reports || !is_report(lines_[n]))) {
             shown_.push_back(n);
         }
     }
@@ -134,13 +134,13 @@ void ConsolePanel::draw_command(Ui& ui, const FrameState& now, ActionQueue& ask)
         if (const auto line =
                 ui.command_line("command",
                                 command_line_label(now),
-                                now.view_state.manual.commands,
+                                now.view_state.manual.console.commands,
                                 refused ? std::string_view() : command_tip, // which would lie over the reason
                                 can_send(now),
                                 now.connection.can.words)) {
             ask.tell([line = *line](drivers::Driver& driver) { (void)driver.command(line); });
             ask.show([line = *line](actions::ViewState& view_state) {
-                auto& commands = view_state.manual.commands;
+                auto& commands = view_state.manual.console.commands;
                 std::erase(commands, line);
                 commands.push_back(line);
                 if (commands.size() > most_commands) {
@@ -162,9 +162,9 @@ void ConsolePanel::draw_command(Ui& ui, const FrameState& now, ActionQueue& ask)
     ui.beside();
     if (const auto on = ui.checkbox("reports",
                                     "Status reports",
-                                    now.view_state.manual.show_reports,
+                                    now.view_state.manual.console.show_reports,
                                     "Show the status reports (ten per second)")) {
-        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.show_reports = on; });
+        ask.show([on = *on](actions::ViewState& view_state) { view_state.manual.console.show_reports = on; });
     }
     if (refused) {
         (void)widgets::banner(

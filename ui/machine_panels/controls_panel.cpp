@@ -20,11 +20,13 @@ using widgets::Permission;
 using widgets::Rank;
 
 Permission can_override(const drivers::Capabilities& can, bool feed) {
-    if (!can.overrides) {
+    using Range = drivers::Capabilities::OverrideRange;
+    if (can.overrides == Range::none) {
         return Permission::refused("This machine has no overrides.");
     }
-    return feed || can.other_overrides ? Permission{}
-                                       : Permission::refused("This machine supports the feed override only.");
+    return feed || can.overrides == Range::all
+               ? Permission{}
+               : Permission::refused("This machine supports the feed override only.");
 }
 
 /// The steps that controllers have: Grbl knows no others.
@@ -131,8 +133,8 @@ void ControlsPanel::draw_finding(Ui& ui, const FrameState& now, ActionQueue& ask
     const actions::ManualSettings& manual = now.view_state.manual;
     probe_fields(ui, ask, manual);
     const auto z = axis_named(machine, 'Z');
-    Permission can =
-        machine.can.probe && z ? can_command(machine) : Permission::refused("This machine cannot probe.");
+    Permission can = machine.can.manual.probe && z ? can_command(machine)
+                                                   : Permission::refused("This machine cannot probe.");
     if (can.allowed && machine.status.spindle != gcode::SpindleTurning::stopped) {
         can = Permission::refused("The spindle is running: stop it first.");
     } else if (machine.status.inputs.probe) {
@@ -176,7 +178,7 @@ void ControlsPanel::draw_spindle(Ui& ui, const FrameState& now, ActionQueue& ask
     const bool clockwise = status.spindle == gcode::SpindleTurning::clockwise;
     ui.value("state",
              "Spindle",
-             !now.connection.can.tells_spindle ? std::string("not reported")
+             !now.connection.can.reports.spindle ? std::string("not reported")
              : turning ? fmt::format("{}, {:.0f} rpm", clockwise ? "M3" : "M4", status.spindle_rpm)
                        : std::string("stopped"));
     const double rpm = now.view_state.manual.spindle_rpm;
@@ -202,11 +204,11 @@ void ControlsPanel::draw_spindle(Ui& ui, const FrameState& now, ActionQueue& ask
     }
     const Permission can_mist =
         now.connection.can.mist ? can : Permission::refused("This controller does not support M7.");
-    if (const auto on = ui.toggle("mist", "Mist", status.mist, "M7", can_mist)) {
-        command(ask, drivers::set_coolant(*on, status.flood));
+    if (const auto on = ui.toggle("mist", "Mist", status.coolant.mist, "M7", can_mist)) {
+        command(ask, drivers::set_coolant(*on, status.coolant.flood));
     }
-    if (const auto on = ui.toggle("flood", "Flood", status.flood, "M8", can)) {
-        command(ask, drivers::set_coolant(status.mist, *on));
+    if (const auto on = ui.toggle("flood", "Flood", status.coolant.flood, "M8", can)) {
+        command(ask, drivers::set_coolant(status.coolant.mist, *on));
     }
 }
 

@@ -39,7 +39,7 @@ std::optional<double> left_by_lines(const FrameState& now, const jobs::JobReport
 } // namespace
 
 std::optional<double> job_time_left(const FrameState& now, const jobs::JobReport& report) {
-    if (now.connection.connected() && now.connection.can.plans) {
+    if (now.connection.connected() && now.connection.can.takes_text()) {
         return left_by_lines(now, report);
     }
     // What begins at a line is a job of its own, with a way in and times that are not the program's.

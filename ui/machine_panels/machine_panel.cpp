@@ -151,7 +151,7 @@ void MachinePanel::draw_mode(Ui& ui, const FrameState& now, ActionQueue& ask) co
             ask.show([speed = machine_speeds[static_cast<std::size_t>(*chosen)]](
                          actions::ViewState& view_state) { view_state.machine_speed = speed; });
         }
-    } else if (now.connection.can.single_block) {
+    } else if (now.connection.can.program.single_block) {
         const actions::Action& single = catalogue_.find("machine.single_block");
         if (ui.toggle("single_block",
                       "Single block",

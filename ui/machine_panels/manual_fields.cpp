@@ -9,8 +9,8 @@ using actions::ConnectionView;
 using widgets::Permission;
 
 Permission can_command(const ConnectionView& machine) {
-    return machine.can.command ? at_rest(machine)
-                               : Permission::refused("This machine does not accept single commands.");
+    return machine.can.manual.command ? at_rest(machine)
+                                      : Permission::refused("This machine does not accept single commands.");
 }
 
 void command(ActionQueue& ask, std::string line) {

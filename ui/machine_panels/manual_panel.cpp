@@ -46,10 +46,10 @@ Permission can_jog_axis(const FrameState& now, char axis) {
     if (now.job.running && !actions::waits_for_tool(now.connection.status)) {
         return Permission::refused("A job is running.");
     }
-    if (!now.connection.can.jog) {
+    if (!now.connection.can.manual.jog) {
         return Permission::refused("This machine cannot jog.");
     }
-    const std::string_view some = now.connection.can.jog_axes;
+    const std::string_view some = now.connection.can.manual.jog_axes;
     if (!some.empty() && some.find(axis) == std::string_view::npos) {
         return Permission::refused("This machine can only jog " + std::string(some) + ".");
     }
@@ -82,7 +82,7 @@ std::pair<std::string, widgets::Tone> position_words(const ConnectionView& machi
                        : "Limit switch pressed: " + pressed),
                 Tone::danger};
     }
-    if (machine.can.told_place) {
+    if (!machine.can.reports.position) {
         return doubt ? std::pair{"Not verified: read and enter the position.", Tone::warning}
                : status.position_known ? std::pair{"Entered manually, not reported.", Tone::muted}
                                        : std::pair{"Assumed, not reported.", Tone::muted};

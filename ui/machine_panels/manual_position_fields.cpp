@@ -39,7 +39,7 @@ widgets::Permission can_say(const drivers::DriverStatus& status) {
 
 bool needs_manual_position(const actions::ConnectionView& machine) {
     const bool known = machine.status.position_known && machine.status.position_doubt.empty();
-    return machine.connected() && machine.can.told_place && !known &&
+    return machine.connected() && !machine.can.reports.position && !known &&
            std::ssize(machine.axes) == machine.status.position.size();
 }
 

@@ -17,10 +17,6 @@ double quarters(float stick) {
                         : 0.0;
 }
 
-double cross(bool plus, bool minus) {
-    return (plus ? 1.0 : 0.0) - (minus ? 1.0 : 0.0);
-}
-
 } // namespace
 
 std::vector<double> pad_axes(const render::Gamepad& pad, std::span<const program::ProgramAxis> axes) {
@@ -31,9 +27,7 @@ std::vector<double> pad_axes(const render::Gamepad& pad, std::span<const program
     int rotary = 0;
     for (std::size_t n = 0; n < axes.size(); ++n) {
         if (axes[n].kind == kinematics::AxisKind::rotary) {
-            amounts[n] = rotary == 0   ? cross(pad.cross_right, pad.cross_left)
-                         : rotary == 1 ? cross(pad.cross_up, pad.cross_down)
-                                       : 0.0;
+            amounts[n] = rotary == 0 ? pad.cross_x : rotary == 1 ? pad.cross_y : 0;
             ++rotary;
         } else if (axes[n].letter == 'X') {
             amounts[n] = quarters(pad.left_x);

@@ -84,7 +84,7 @@ void draw_sensor(Ui& ui, const FrameState& now, ActionQueue& ask, const ToolChan
 } // namespace
 
 void tool_change_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
-    if (!now.connection.connected() || !now.connection.can.tool_changes) {
+    if (!now.connection.connected() || !now.connection.can.program.tool_changes) {
         return;
     }
     const auto section = ui.section("tool_changes", "Tool changes");

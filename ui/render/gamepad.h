@@ -8,7 +8,7 @@ struct Gamepad {
     float left_x = 0.0F, left_y = 0.0F;
     float right_x = 0.0F, right_y = 0.0F;
     bool left_bumper = false, right_bumper = false;
-    bool cross_left = false, cross_right = false, cross_up = false, cross_down = false;
+    int cross_x = 0, cross_y = 0; ///< -1, 0 or 1: to the right, and up, are positive
 
     friend bool operator==(const Gamepad& a, const Gamepad& b) = default;
 };

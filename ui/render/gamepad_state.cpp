@@ -25,10 +25,9 @@ Gamepad gamepad_of(const GLFWgamepadstate& state) {
     pad.right_y = -stick(state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]);
     pad.left_bumper = down(GLFW_GAMEPAD_BUTTON_LEFT_BUMPER);
     pad.right_bumper = down(GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER);
-    pad.cross_left = down(GLFW_GAMEPAD_BUTTON_DPAD_LEFT);
-    pad.cross_right = down(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT);
-    pad.cross_up = down(GLFW_GAMEPAD_BUTTON_DPAD_UP);
-    pad.cross_down = down(GLFW_GAMEPAD_BUTTON_DPAD_DOWN);
+    const auto between = [&](int plus, int minus) { return (down(plus) ? 1 : 0) - (down(minus) ? 1 : 0); };
+    pad.cross_x = between(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, GLFW_GAMEPAD_BUTTON_DPAD_LEFT);
+    pad.cross_y = between(GLFW_GAMEPAD_BUTTON_DPAD_UP, GLFW_GAMEPAD_BUTTON_DPAD_DOWN);
     return pad;
 }
 

@@ -58,7 +58,7 @@ NamedScene designed_scene(const viewport::Scene& shown) {
     designed.scene.stock = nullptr; // it is of the program
     designed.scene.now.reset();
     designed.scene.layers = {
-        .surface_lines = true, .floor = shown.layers.floor, .origin = shown.layers.origin};
+        .design = {.lines = true}, .floor = shown.layers.floor, .origin = shown.layers.origin};
     return designed;
 }
 

@@ -1,15 +1,25 @@
 #include "ui/viewport/layer_switches.h"
 
+#include <algorithm>
+#include <array>
+
 namespace millwright::viewport {
 
 Layers switched(Layers layers, const LayerSwitch& which) {
-    const bool on = !(layers.*which.shown);
-    if (on && (which.shown == &Layers::error_surface || which.shown == &Layers::weight ||
-               which.shown == &Layers::scallops || which.shown == &Layers::deviation ||
-               which.shown == &Layers::produced)) { // nearly in one place: they would hide half of each other
-        layers.error_surface = layers.weight = layers.scallops = layers.deviation = layers.produced = false;
+    bool& flag = which.flag(layers);
+    const bool on = !flag;
+    // Nearly in one place: they would hide half of each other.
+    const std::array covering{&layers.colored.deviation,
+                              &layers.colored.errors,
+                              &layers.colored.scallops,
+                              &layers.colored.weight,
+                              &layers.design.produced};
+    if (on && std::ranges::find(covering, &flag) != covering.end()) {
+        for (bool* each : covering) {
+            *each = false;
+        }
     }
-    layers.*which.shown = on;
+    flag = on;
     return layers;
 }
 

@@ -30,7 +30,7 @@ constexpr double hidden_share = 0.05; // of the surface's size: further behind i
 /// What lies before the surface, or beside it.
 std::optional<int> face_at(const MouseToolInput& input) {
     const auto& reference = input.scene.reference;
-    if (!reference || !input.scene.layers.reference) {
+    if (!reference || !input.scene.layers.design.reference) {
         return std::nullopt;
     }
     const render::Ray ray = render::ray(input.view, pixel_of(input.pointer));
@@ -40,7 +40,7 @@ std::optional<int> face_at(const MouseToolInput& input) {
 }
 
 bool editable(const Scene& scene) {
-    return scene.layers.control_net && scene.surface;
+    return scene.layers.design.control_net && scene.surface;
 }
 
 /// A selection may be older than the surface.

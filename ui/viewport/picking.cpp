@@ -61,7 +61,7 @@ public:
         if (points[from + 1].reached_by != toolpath::MoveKind::track || far_away(move)) {
             return;
         }
-        if (scene_.layers.error_path) {
+        if (scene_.layers.path.errors) {
             look_along(move, actual_tips(*scene_.cutting_setup, *scene_.shown, move, path_steps));
         } else {
             look_along(move,
@@ -89,7 +89,7 @@ private:
         if (!a || !b) {
             return true;
         }
-        const double error = scene_.layers.error_path ? scene_.shown->field.moves[from].param : 0.0;
+        const double error = scene_.layers.path.errors ? scene_.shown->field.moves[from].param : 0.0;
         const double pixel = render::pixel_length(view_, render::to_glm(s_T_w_ * points[from].pose.tip));
         const double beside = 0.5 * glm::length(*b - *a) + loop_to_error * error / pixel;
         return nearest_on(*a, *b, pixel_).distance > nearest_ + beside;
@@ -288,7 +288,7 @@ std::optional<PathHit> pick_move(const Scene& scene,
                                  double within_px,
                                  std::optional<double> sight_mm,
                                  double hidden_mm) {
-    if (!scene.shown || !scene.cutting_setup || !(scene.layers.toolpath || scene.layers.error_path)) {
+    if (!scene.shown || !scene.cutting_setup || !(scene.layers.path.intended || scene.layers.path.errors)) {
         return std::nullopt;
     }
     const double farthest = sight_mm ? *sight_mm + hidden_mm : std::numeric_limits<double>::infinity();

@@ -55,8 +55,8 @@ std::vector<Part> parts_of(const project::Project& project,
         }
         part.caption = "Produced";
         Part designed = {.scene = part.scene, .caption = "Designed"};
-        designed.scene.layers.surface = designed.scene.layers.surface_lines = true;
-        designed.scene.layers.produced = false;
+        designed.scene.layers.design.surface = designed.scene.layers.design.lines = true;
+        designed.scene.layers.design.produced = false;
         return {designed, part};
     }
     const bool compared = kind == ViewKind::grid || kind == ViewKind::error;
@@ -90,7 +90,7 @@ public:
         scene_.update(part_.scene);
         picker_.follow(part_.scene.surface);
         const render::Camera seen = camera_from(side);
-        const bool in_machine = part_.scene.layers.machine && side == render::StandardView::iso;
+        const bool in_machine = part_.scene.layers.machine.bodies && side == render::StandardView::iso;
         const render::Camera turned = in_machine ? part_in_sight(part_.scene, seen) : seen;
         camera_ = turned.fitted(scene_.outline(), render::aspect(pixel_size(free)));
         view_ = framed(camera_, place, free, scene_.depth_range(), scale);
@@ -157,7 +157,7 @@ render::Picture render_view(const project::Project& project,
     for (Part& part : parts) {
         part.scene.colors = look.colors;
     }
-    const bool has_legend = parts.front().scene.layers.error_path && parts.front().scene.shown;
+    const bool has_legend = parts.front().scene.layers.path.errors && parts.front().scene.shown;
     const Sheet sheet = sheet_for(size, static_cast<int>(parts.size()), facts, has_legend);
     const render::ViewColors colors = render::view_colors(theme, look.colors);
     Desk desk(size, sheet.scale, theme);

@@ -78,30 +78,31 @@ std::optional<ViewKind> view_kind(std::string_view id) {
 Layers layers_of(ViewKind kind) {
     switch (kind) {
     case ViewKind::design:
-        return {.surface_lines = true, .control_net = true, .reference = true, .deviation = true};
+        return {.design = {.lines = true, .control_net = true, .reference = true},
+                .colored = {.deviation = true}};
     case ViewKind::grid:
-        return {.grid = true, .singular_points = true};
+        return {.grid = {.shown = true}, .machine = {.singular_points = true}};
     case ViewKind::toolpath:
-        return {.toolpath = true, .tool = true, .trace = true};
+        return {.path = {.intended = true, .trace = true}, .machine = {.tool = true}};
     case ViewKind::error:
-        return {
-            .error_path = true, .singular_points = true, .gouges = true, .set_up_map = true, .tool = true};
+        return {.path = {.errors = true, .gouges = true},
+                .machine = {.tool = true, .singular_points = true, .set_up_map = true}};
     case ViewKind::produced:
-        return {.surface = false, .produced = true};
+        return {.design = {.surface = false, .produced = true}};
     case ViewKind::machine:
         break;
     }
-    return {.toolpath = true, .machine = true, .tool = true, .trace = true, .floor = false, .origin = false};
+    return {.path = {.intended = true, .trace = true},
+            .machine = {.bodies = true, .tool = true},
+            .floor = false,
+            .origin = false};
 }
 
 Layers layers_of_arm() {
-    return {.surface = false,
-            .toolpath = true,
-            .trace = true,
-            .origin = false,
-            .arm_reach = true,
-            .joint_limits = true,
-            .tool_frame = true};
+    return {.design = {.surface = false},
+            .path = {.intended = true, .trace = true},
+            .arm = {.reach = true, .joint_limits = true, .tool_frame = true},
+            .origin = false};
 }
 
 const region::Region* joined_faces(const Scene& scene) {
@@ -160,7 +161,7 @@ kinematics::AxisPositions axes_now(const Scene& scene) {
 }
 
 Frame scene_from_workpiece(const Scene& scene) {
-    const auto machine = scene.layers.machine ? machine_of(scene) : nullptr;
+    const auto machine = scene.layers.machine.bodies ? machine_of(scene) : nullptr;
     return machine ? kinematics::m_T_w(*machine, axes_now(scene)) : Frame::Identity();
 }
 
@@ -178,17 +179,17 @@ SurfaceColors surface_colors(const Scene& scene) {
     if (shows_stock(scene)) {
         return SurfaceColors::plain;
     }
-    if (scene.layers.deviation && scene.reference && !scene.reference->deviation.empty()) {
+    if (scene.layers.colored.deviation && scene.reference && !scene.reference->deviation.empty()) {
         return SurfaceColors::deviation;
     }
-    if (scene.layers.weight && scene.weight && scene.cutting_setup) {
+    if (scene.layers.colored.weight && scene.weight && scene.cutting_setup) {
         return SurfaceColors::weight;
     }
-    if (scene.layers.scallops && scene.cut && scene.cutting_setup) {
+    if (scene.layers.colored.scallops && scene.cut && scene.cutting_setup) {
         return SurfaceColors::scallop;
     }
-    return scene.layers.error_surface && scene.shown && scene.cutting_setup ? SurfaceColors::error
-                                                                            : SurfaceColors::plain;
+    return scene.layers.colored.errors && scene.shown && scene.cutting_setup ? SurfaceColors::error
+                                                                             : SurfaceColors::plain;
 }
 
 render::ColorScale weight_colors(const Scene& scene) {

@@ -41,34 +41,72 @@ inline constexpr int view_kind_count = 6;
 /// The kind of that id; nothing if there is none.
 [[nodiscard]] std::optional<ViewKind> view_kind(std::string_view id);
 
+struct DesignLayers {
+    bool surface = true;
+    bool lines = false;       ///< of constant u and v, eleven each
+    bool control_net = false; ///< with handles
+    bool reference = false;   ///< triangles of another program beside the surface
+    bool produced = false;    ///< the surface that the true path makes
+
+    friend bool operator==(const DesignLayers&, const DesignLayers&) = default;
+};
+
+/// The surface, coloured by a value.
+struct ColoredLayers {
+    bool deviation = false; ///< the triangles that were fitted, by their distance from the patch
+    bool errors = false;    ///< by the errors around each place
+    bool scallops = false;  ///< by what the cutter leaves on it
+    bool weight = false;    ///< by the weight of the elliptic functional
+
+    friend bool operator==(const ColoredLayers&, const ColoredLayers&) = default;
+};
+
+struct GridLayers {
+    bool shown = false; ///< of Scene::shown, or what is being adapted
+    bool start = false; ///< of Scene::start, dim
+
+    friend bool operator==(const GridLayers&, const GridLayers&) = default;
+};
+
+struct PathLayers {
+    bool intended = false;
+    bool tool_axes = false; ///< a hair along the tool at each path point
+    bool errors = false;    ///< the actual path, coloured by the error of each move
+    bool gouges = false;    ///< places where cutter or holder come too deep
+    bool trace = false;     ///< the actual path up to `now`
+
+    friend bool operator==(const PathLayers&, const PathLayers&) = default;
+};
+
+struct MachineLayers {
+    bool bodies = false;          ///< the scene is then the machine's frame
+    bool tool = false;            ///< the tool at `now`
+    bool singular_points = false; ///< on the surface
+    bool set_up_map = false;      ///< what other places of the part cost, and the one that is marked
+
+    friend bool operator==(const MachineLayers&, const MachineLayers&) = default;
+};
+
+/// Of a robot arm, where the scene has one.
+struct ArmLayers {
+    bool body = true;
+    bool reach = false;        ///< the border of where its wrist can be
+    bool joint_limits = false; ///< the range of each of its joints
+    bool tool_frame = false;   ///< the axes at its tool's tip
+
+    friend bool operator==(const ArmLayers&, const ArmLayers&) = default;
+};
+
 /// What of the results is to be seen.
 struct Layers {
-    bool surface = true;
-    bool surface_lines = false;   ///< lines of constant u and v, eleven each
-    bool control_net = false;     ///< with handles
-    bool reference = false;       ///< triangles of another program beside the surface
-    bool deviation = false;       ///< those that were fitted, coloured by their distance from the patch
-    bool produced = false;        ///< the surface that the true path makes
-    bool grid = false;            ///< of `shown`, or what is being adapted
-    bool start_grid = false;      ///< of `start`, dim
-    bool toolpath = false;        ///< the intended path
-    bool tool_axes = false;       ///< a hair along the tool at each path point
-    bool error_path = false;      ///< the actual path, coloured by the error of each move
-    bool error_surface = false;   ///< the surface, coloured by the errors around each place
-    bool scallops = false;        ///< the surface, coloured by what the cutter leaves on it
-    bool weight = false;          ///< the surface, coloured by the weight of the elliptic functional
-    bool singular_points = false; ///< of the machine on the surface
-    bool gouges = false;          ///< places where cutter or holder come too deep
-    bool set_up_map = false;      ///< what other places of the part cost, and the one that is marked
-    bool machine = false;         ///< its bodies; the scene is then the machine's frame
-    bool tool = false;            ///< the tool at `now`
-    bool trace = false;           ///< the actual path up to `now`
-    bool floor = true;            ///< a ground grid below everything
-    bool origin = true;           ///< axes at the workpiece's origin
-    bool arm = true;              ///< a robot arm, where the scene has one
-    bool arm_reach = false;       ///< the border of where its wrist can be
-    bool joint_limits = false;    ///< the range of each of its joints
-    bool tool_frame = false;      ///< the axes at its tool's tip
+    DesignLayers design;
+    ColoredLayers colored;
+    GridLayers grid;
+    PathLayers path;
+    MachineLayers machine;
+    ArmLayers arm;
+    bool floor = true;  ///< a ground grid below everything
+    bool origin = true; ///< axes at the workpiece's origin
 
     friend bool operator==(const Layers&, const Layers&) = default;
 };

@@ -74,7 +74,7 @@ void color_dialog(Ui& ui, const FrameState& now, ActionQueue& ask) {
     }
     if (ui.button("close", "Close", {}, {.rank = widgets::Rank::primary, .tip = "Esc"}) ||
         ui.escape_pressed()) {
-        ask.show([](actions::ViewState& view_state) { view_state.colors_shown = false; });
+        ask.show([](actions::ViewState& view_state) { view_state.dialogs.colors = false; });
     }
 }
 

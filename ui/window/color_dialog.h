@@ -5,7 +5,7 @@
 
 namespace millwright::panels {
 
-/// For as long as ViewState::colors_shown.
+/// For as long as OpenDialogs::colors.
 void color_dialog(Ui& ui, const FrameState& now, ActionQueue& ask);
 
 } // namespace millwright::panels

@@ -45,11 +45,11 @@ void Dialogs::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!now.view_state.start) {
         start_.close();
     }
-    if (now.view_state.quit_wanted) { // over everything: something moves
+    if (now.view_state.dialogs.quit) { // over everything: something moves
         draw_running_job(ui, now, ask);
     } else if (now.view_state.replacing) {
         draw_replacing(ui, now, ask);
-    } else if (now.view_state.gouges_asked) {
+    } else if (now.view_state.dialogs.gouges) {
         draw_gouges(ui, now, ask);
     } else if (file) {
         files_.draw(ui, now, ask);
@@ -63,7 +63,7 @@ void Dialogs::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
         draw_broken_job(ui, now, ask);
     } else if (now.view_state.help != actions::HelpPage::none) {
         help_.draw(ui, now, ask);
-    } else if (now.view_state.colors_shown) {
+    } else if (now.view_state.dialogs.colors) {
         color_dialog(ui, now, ask);
     }
 }

@@ -54,7 +54,7 @@ std::string short_count(std::ptrdiff_t count, std::string_view one) {
 /// Grids that are there, that the program uses, or that are made to compare where that is looked at.
 bool is_listed(const FrameState& now, GridMethod method) {
     const bool compared =
-        row_of(method).compared && actions::wanted_plan(now.view_state, now.project).comparisons;
+        row_of(method).compared && actions::wanted_plan(now.view_state, now.project).compared.grids;
     const bool failed = now.plan && now.plan->plan.grid(method).failure;
     return method == GridMethod::uniform || compared || failed || now.evaluation(method) ||
            plan::program_grid(now.project) == method;

@@ -94,7 +94,7 @@ void ProjectPreview::draw_picture(const Ui& ui) {
     }
     viewport::Scene scene;
     scene.surface = surface_;
-    scene.layers.surface_lines = true;
+    scene.layers.design.lines = true;
     scene.layers.origin = false;
     view_->update(scene);
     const auto scale = static_cast<double>(ui.look().scale);

@@ -179,7 +179,7 @@ void StartSheet::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
     if (!status.position_doubt.empty()) {
         (void)widgets::banner(
             ui, "doubt", {widgets::Severity::warning, drivers::doubt_sentence(status.position_doubt), {}});
-        if (!now.connection.can.told_place) {
+        if (now.connection.can.reports.position) {
             action_button(ui, now, ask, catalogue_, "machine.trust_position");
         }
     }

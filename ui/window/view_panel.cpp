@@ -145,7 +145,7 @@ void show_stock(const FrameState& now, viewport::Scene& scene) {
 /// What would become of the surface, in place of it.
 void show_import(const FrameState& now, viewport::Scene& scene) {
     const auto found = now.import.latest();
-    scene.layers.control_net = false; // nothing of it can be changed yet
+    scene.layers.design.control_net = false; // nothing of it can be changed yet
     scene.selected.clear();
     scene.surface = found->patches;
     scene.trims = found->trims;
@@ -202,7 +202,7 @@ viewport::Scene scene_of(const FrameState& now) {
         return scene;
     }
     if (at_machine && now.draws_another_machine()) {
-        scene.layers.machine = false;
+        scene.layers.machine.bodies = false;
     }
     scene.selected = now.view_state.selected;
     scene.symmetry = now.view_state.symmetry;
@@ -218,7 +218,7 @@ viewport::Scene scene_of(const FrameState& now) {
         scene.opened = now.opened;
         scene.now = now.moment();
         show_stock(now, scene);
-        scene.layers.machine = scene.layers.machine && scene.now && scene.opened->machine;
+        scene.layers.machine.bodies = scene.layers.machine.bodies && scene.now && scene.opened->machine;
         if (const auto place = now.file_place(); place && !scene.table_tip) {
             scene.opened_now = place->moment;
         }
@@ -228,7 +228,8 @@ viewport::Scene scene_of(const FrameState& now) {
         return scene;
     }
     scene.reference = now.import.reference(now.project.surface);
-    scene.layers.deviation = scene.layers.deviation && now.import.is_measured(now.project.surface);
+    scene.layers.colored.deviation =
+        scene.layers.colored.deviation && now.import.is_measured(now.project.surface);
     if (shows_import(now)) {
         show_import(now, scene);
         return scene;
@@ -337,7 +338,7 @@ void ViewPanel::follow_plot(const plan::PlotResult& made) {
 
 /// A map that has just come lies beside the part, outside the view.
 void ViewPanel::fit_set_up(const viewport::Scene& shown) {
-    if (!shown.layers.set_up_map || !shown.set_up || !shown.set_up->study) {
+    if (!shown.layers.machine.set_up_map || !shown.set_up || !shown.set_up->study) {
         return;
     }
     if (std::exchange(set_ups_[shown.sight], shown.set_up) != shown.set_up) {

@@ -188,7 +188,7 @@ void Window::draw(Ui& ui, float width, float height, bool focused) {
                                           search_.is_open() || now.asks() || no_jog(now),
                                           now.view_state.workspace,
                                           std::chrono::steady_clock::now());
-    if (search_.is_open() || now.view_state.search_wanted) {
+    if (search_.is_open() || now.view_state.dialogs.search) {
         ui.claim_keys();
     }
     const Layout place = layout(ui, now.view_state, width, height);
@@ -414,9 +414,9 @@ void Window::draw_splitters(Ui& ui, const FrameState& now, const Layout& place, 
 }
 
 void Window::draw_over(Ui& ui, const FrameState& now, const widgets::Rect& view) {
-    if (now.view_state.search_wanted) {
+    if (now.view_state.dialogs.search) {
         search_.open();
-        ask_.show([](actions::ViewState& view_state) { view_state.search_wanted = false; });
+        ask_.show([](actions::ViewState& view_state) { view_state.dialogs.search = false; });
     }
     if (now.asks()) { // what is asked comes first, and has the keys
         search_.close();

@@ -16,8 +16,8 @@ Permission at_rest(const ConnectionView& machine) {
     if (state == DriverState::alarm) {
         return Permission::refused(machine.row().kind == machine::MachineKind::arm
                                        ? "Alarm: inspect the arm, then unlock it."
-                                   : machine.can.home ? "Alarm: home or unlock first."
-                                                      : "Alarm: inspect the machine, then unlock it.");
+                                   : machine.can.manual.home ? "Alarm: home or unlock first."
+                                                             : "Alarm: inspect the machine, then unlock it.");
     }
     return state == DriverState::idle || state == DriverState::stopped ||
                    (state == DriverState::holding && waits_for_tool(machine.status))

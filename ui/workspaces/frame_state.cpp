@@ -121,7 +121,7 @@ std::shared_ptr<const program::Program> FrameState::program() const {
 }
 
 ProgramOfMachine FrameState::arm_program() const {
-    if (view_state.manual.arm_path_of_file && opened) {
+    if (view_state.manual.arm_path.of_file && opened) {
         return opened->motion ? ProgramOfMachine{opened->motion->program, opened->machine}
                               : ProgramOfMachine{};
     }
@@ -258,7 +258,7 @@ kinematics::AxisPositions FrameState::connected_axes() const {
     if (status.position.size() != model->axis_count()) {
         return {};
     }
-    return connection.can.plans ? status.work_position() : status.position;
+    return connection.can.takes_text() ? status.work_position() : status.position;
 }
 
 std::optional<Vec3> FrameState::table_tip() const {

@@ -103,7 +103,7 @@ struct FrameState {
     [[nodiscard]] std::shared_ptr<const plan::Evaluation> evaluation(project::GridMethod method) const;
     [[nodiscard]] std::shared_ptr<const motion::Trajectory> trajectory() const;
     [[nodiscard]] std::shared_ptr<const program::Program> program() const;
-    /// What is shown before the arm, by ManualSettings::arm_path_of_file.
+    /// What is shown before the arm, by ArmPathChoice::of_file.
     [[nodiscard]] ProgramOfMachine arm_program() const;
     /// Of the project's own program.
     [[nodiscard]] std::shared_ptr<const program::Listing> listing() const;
@@ -119,8 +119,9 @@ struct FrameState {
     /// A question or a message is shown over everything else; only the machine listens to keys meanwhile.
     [[nodiscard]] bool asks() const {
         return view_state.file_prompt != FilePrompt::none || view_state.replacing ||
-               view_state.gouges_asked || view_state.start || view_state.help != HelpPage::none ||
-               view_state.quit_wanted || !leaving_to.empty() || !left_behind.empty() || !broken_jobs->empty();
+               view_state.dialogs.gouges || view_state.start || view_state.help != HelpPage::none ||
+               view_state.dialogs.quit || !leaving_to.empty() || !left_behind.empty() ||
+               !broken_jobs->empty();
     }
     [[nodiscard]] bool changed() const { return !(project == document.saved); }
     /// Whose axes are shown: of the opened file's choice, or the project's. Null before there is one.

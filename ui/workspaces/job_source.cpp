@@ -17,7 +17,7 @@ using widgets::Permission;
 
 /// Nothing but the text is needed where the controller plans for itself.
 bool sends_text(const FrameState& now) {
-    return now.connection.connected() && now.connection.can.plans;
+    return now.connection.connected() && now.connection.can.takes_text();
 }
 
 /// Where it is to begin at a line, what comes before is known and was shown.

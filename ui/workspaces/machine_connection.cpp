@@ -31,7 +31,7 @@ bool looks_same(const DriverStatus& a, const DriverStatus& b) {
            a.position_known == b.position_known && a.modes == b.modes &&
            a.position_doubt == b.position_doubt && a.block == b.block &&
            a.executed_blocks == b.executed_blocks && a.overrides == b.overrides && a.inputs == b.inputs &&
-           a.motors == b.motors && a.spindle == b.spindle && a.mist == b.mist && a.flood == b.flood &&
+           a.motors == b.motors && a.spindle == b.spindle && a.coolant == b.coolant &&
            a.work_system == b.work_system && a.tool == b.tool && a.sent_blocks == b.sent_blocks &&
            a.tool_change == b.tool_change && same(a.feed, b.feed) && same(a.spindle_rpm, b.spindle_rpm) &&
            a.message == b.message && a.answer.number == b.answer.number && a.answer.state == b.answer.state &&
@@ -247,7 +247,8 @@ void MachineConnection::watch() {
     {
         const std::scoped_lock lock(mutex_);
         changed = !looks_same(status, view_.status) || settings.size() != view_.settings.size() ||
-                  can.home != view_.can.home || firmware != view_.firmware || remarks != view_.remarks;
+                  can.manual.home != view_.can.manual.home || firmware != view_.firmware ||
+                  remarks != view_.remarks;
         if (!can.axes.empty()) {
             view_.axes = can.axes;
         }

@@ -15,6 +15,21 @@ namespace millwright::actions {
 /// Along what an arm is jogged.
 enum class ArmFrame : std::uint8_t { joints, base, tool };
 
+/// The program that is shown on the arm.
+struct ArmPathChoice {
+    bool shown = false;
+    bool of_file = false; ///< the opened file's, where one is open, not the project's
+
+    friend bool operator==(const ArmPathChoice&, const ArmPathChoice&) = default;
+};
+
+struct ConsoleSettings {
+    bool show_reports = false;
+    std::vector<std::string> commands; ///< typed before, oldest first
+
+    friend bool operator==(const ConsoleSettings&, const ConsoleSettings&) = default;
+};
+
 struct ManualSettings {
     machine::DriverChoice choice;
     std::map<std::string, std::string> addresses; ///< of the other drivers, by name, where one was given
@@ -28,16 +43,14 @@ struct ManualSettings {
     double probe_way_mm = 20.0;   ///< downwards at most
     double probe_mm_per_min = 100.0;
     ArmFrame arm_frame = ArmFrame::joints;
-    int arm_joint = 0;             ///< that the keys move
-    int arm_percent = 20;          ///< of the fastest jog of an arm
-    bool arm_keys = false;         ///< the keys of the thesis move the arm
-    bool arm_path = false;         ///< a program is shown on the arm
-    bool arm_path_of_file = false; ///< the opened file's, where one is open, not the project's
-    double arm_result_step = 5.0;  ///< mm between two points of a motion file's result
+    int arm_joint = 0;     ///< that the keys move
+    int arm_percent = 20;  ///< of the fastest jog of an arm
+    bool arm_keys = false; ///< the keys of the thesis move the arm
+    ArmPathChoice arm_path;
+    double arm_result_step = 5.0; ///< mm between two points of a motion file's result
     bool single_block = false;
     std::map<std::string, ToolChangeSettings> tool_changes; ///< by the address of the link
-    bool show_reports = false;                              ///< in the console
-    std::vector<std::string> commands;                      ///< typed before, oldest first
+    ConsoleSettings console;
 
     friend bool operator==(const ManualSettings&, const ManualSettings&) = default;
 };

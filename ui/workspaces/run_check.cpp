@@ -36,8 +36,8 @@ bool same_limits(const drivers::MachineLimits& a, const drivers::MachineLimits& 
 }
 
 bool same_abilities(const drivers::Capabilities& a, const drivers::Capabilities& b) {
-    return a.plans == b.plans && a.points == b.points && a.dialect == b.dialect && a.mist == b.mist &&
-           a.tool_changes == b.tool_changes && a.laser == b.laser && a.firmware == b.firmware;
+    return a.takes == b.takes && a.dialect == b.dialect && a.mist == b.mist &&
+           a.program.tool_changes == b.program.tool_changes && a.laser == b.laser && a.firmware == b.firmware;
 }
 
 bool same_machine(const ConnectionView& a, const ConnectionView& b) {

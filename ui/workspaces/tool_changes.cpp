@@ -47,7 +47,7 @@ ToolChangeSettings tool_change_settings(const ManualSettings& manual, const Conn
 }
 
 std::optional<ToolChangePlan> tool_change_plan(const ManualSettings& manual, const ConnectionView& machine) {
-    if (!machine.connected() || !machine.can.tool_changes) {
+    if (!machine.connected() || !machine.can.program.tool_changes) {
         return std::nullopt;
     }
     const ToolChangeSettings settings = tool_change_settings(manual, machine);

@@ -170,6 +170,13 @@ struct SurfaceToolView {
     std::vector<Vec2> draft; ///< corners of an outline in the making
 };
 
+struct OpenDialogs {
+    bool colors = false; ///< chooses ViewState::colors
+    bool gouges = false; ///< is a program written that gouges the part?
+    bool quit = false;   ///< a job is running: is it to be stopped?
+    bool search = false; ///< the palette opens in the next frame
+};
+
 struct ViewState {
     Workspace workspace = Workspace::design;
     std::array<viewport::Layers, workspace_count> layers;    ///< one per workspace
@@ -203,21 +210,18 @@ struct ViewState {
     std::map<std::string, std::filesystem::path> folders;
     widgets::Theme theme = widgets::Theme::dark;
     render::LayerColors colors; ///< chosen by a person, in place of the theme's
-    bool colors_shown = false;  ///< the dialog that chooses them
     double machine_speed = 1.0; ///< of the virtual machine, times real time
+    OpenDialogs dialogs;
     FilePrompt file_prompt = FilePrompt::none;
     std::optional<Replacing> replacing; ///< waits for the person's word
-    bool gouges_asked = false;          ///< is a program written that gouges the part?
     HelpPage help = HelpPage::none;
     std::shared_ptr<const StartWish> start; ///< a job that waits for a person's word; null: none
     int start_answer = 0; ///< CommandAnswer::number of the controller's own check of it; 0: not asked for
-    bool search_wanted = false; ///< open the palette in the next frame
     /// The view of that workspace is fitted as soon as there is something to be seen in it.
     std::array<bool, workspace_count> fit_wanted{true, true, true, true, true, true, true, true};
     std::optional<render::StandardView> side_wanted; ///< look at it from there in the next frame
     bool against_light = false;                      ///< how a finished plot is looked at
     bool picture_shown = false;                      ///< below its path, in place of how it will look
-    bool quit_wanted = false;                        ///< a job is running: is it to be stopped?
     bool quit = false;                               ///< nothing is in the way any more: close the window
     std::vector<widgets::Notice> notices;            ///< to be shown; taken by the window
     std::vector<std::string> log;                    ///< every notice, newest last

@@ -32,11 +32,10 @@ plan::Scope wanted_plan(const ViewState& view_state, const project::Project& pro
     const bool in_toolpath = view_state.workspace == Workspace::toolpath;
     const bool table = view_state.panes.lower_shown && view_state.lower_tab_now() == LowerTab::compare;
     const bool compares = in_grid || in_toolpath || table || shows_compared(view_state, project);
-    return {.comparisons = compares,
+    return {.compared = {.grids = compares, .cuts = shows_other_path(view_state, project)},
             .times = compares,
-            .weight = in_grid || view_state.layers_now().weight,
+            .weight = in_grid || view_state.layers_now().colored.weight,
             .cut = true,
-            .compared_cuts = shows_other_path(view_state, project),
             .unsequenced = in_toolpath};
 }
 

@@ -60,9 +60,11 @@ void LinuxCncDriver::remove_program() {
 Capabilities LinuxCncDriver::capabilities() const {
     using kinematics::AxisKind;
     Capabilities able;
-    able.plans = able.overrides = able.jog = able.home = able.command = true;
-    able.tells_spindle = false; // linuxcncrsh ends when it is asked for its spindle
-    able.jog_axes = "XYZ";
+    able.takes = Capabilities::Takes::text;
+    able.overrides = Capabilities::OverrideRange::feed;
+    able.manual.jog = able.manual.home = able.manual.command = true;
+    able.reports.spindle = false; // linuxcncrsh ends when it is asked for its spindle
+    able.manual.jog_axes = "XYZ";
     able.dialect = gcode::Dialect::linuxcnc;
     for (const char letter : options_.axes) {
         able.axes.push_back({letter, letter >= 'X' ? AxisKind::linear : AxisKind::rotary});

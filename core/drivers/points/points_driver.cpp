@@ -92,9 +92,9 @@ PlayStatus PointsDriver::played() const {
 
 Capabilities PointsDriver::capabilities() const {
     Capabilities able;
-    able.points = able.told_place = true;
-    able.tells_spindle = false;
-    able.answers = !link_ || !options_.format.answer.empty();
+    able.takes = Capabilities::Takes::points;
+    able.reports.position = able.reports.spindle = false;
+    able.reports.execution = !link_ || !options_.format.answer.empty();
     return able;
 }
 

@@ -40,9 +40,10 @@ RecordSession& RecordsDriver::talk() const {
 
 Capabilities RecordsDriver::capabilities() const {
     Capabilities able;
-    able.overrides = able.single_block = able.optional_stop = able.piecewise = able.told_place = true;
-    able.tells_spindle = false;
-    able.answers = talk().awaits_answers();
+    able.overrides = Capabilities::OverrideRange::feed;
+    able.program.single_block = able.program.optional_stop = able.program.piecewise = true;
+    able.reports.position = able.reports.spindle = false;
+    able.reports.execution = talk().awaits_answers();
     return able;
 }
 

@@ -47,9 +47,8 @@ std::string StreamDriver::lost() const {
 
 Capabilities StreamDriver::capabilities() const {
     Capabilities able = machine_.capabilities();
-    able.told_place = true;
-    able.tells_spindle = false;
-    able.answers = sender_.asks();
+    able.reports.position = able.reports.spindle = false;
+    able.reports.execution = sender_.asks();
     return able;
 }
 

@@ -119,12 +119,13 @@ void VirtualMachine::close() noexcept {
 
 Capabilities VirtualMachine::capabilities() const {
     Capabilities able;
-    able.single_block = able.optional_stop = able.overrides = able.other_overrides = true;
+    able.program.single_block = able.program.optional_stop = true;
+    able.overrides = Capabilities::OverrideRange::all;
     if (const kinematics::MachineModel* model = axes_->model()) {
         for (const kinematics::MachineAxis& axis : model->axes()) {
             able.axes.push_back({axis.letter, axis.kind});
         }
-        able.jog = able.home = able.command = true;
+        able.manual.jog = able.manual.home = able.manual.command = true;
     }
     return able;
 }

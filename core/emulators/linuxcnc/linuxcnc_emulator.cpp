@@ -239,8 +239,8 @@ private:
             {"JOINT_HOMED", [&] { return homed(); }},
             {"FEED_OVERRIDE", [&] { return std::to_string(task_->feed_override()); }},
             {"PROGRAM_CODES", [&] { return now.modes; }},
-            {"MIST", [&] { return on(now.mist); }},
-            {"FLOOD", [&] { return on(now.flood); }},
+            {"MIST", [&] { return on(now.coolant.mist); }},
+            {"FLOOD", [&] { return on(now.coolant.flood); }},
             {"TOOL", [&] { return std::to_string(now.tool); }},
             {"USER_LINEAR_UNITS", [] { return std::string("MM"); }}};
         const auto found = values.find(subject);

@@ -47,7 +47,8 @@ void expect_one_form(const Block& block, const ModalState& s, Dialect dialect) {
                fmt::format(
                    "{} is not allowed for an arc in the {} plane", words.across, plane_letters(s.plane)));
     }
-    if (by_centre && s.absolute_centres && !(block.has(words.first) && block.has(words.second))) {
+    if (by_centre && s.arc_distance == DistanceMode::absolute &&
+        !(block.has(words.first) && block.has(words.second))) {
         refuse(column,
                fmt::format(
                    "with absolute centres (G90.1) an arc needs both {} and {}", words.first, words.second));
@@ -77,7 +78,7 @@ bool is_circle_about_absolute_centre(const Block& block,
                                      const Vec2& relative_centre,
                                      const ArcTolerances& within) {
     const CentreWords words = centre_words(s.plane);
-    if (s.absolute_centres || !block.has(words.first) || !block.has(words.second)) {
+    if (s.arc_distance == DistanceMode::absolute || !block.has(words.first) || !block.has(words.second)) {
         return false;
     }
     const auto is_circle = [&](const Vec2& centre) {
@@ -123,7 +124,7 @@ void make_arc(Run& run, const Block& block, int motion) {
     } else {
         const CentreWords words = centre_words(s.plane);
         centre = {block.value_or(words.first, 0.0), block.value_or(words.second, 0.0)};
-        centre += s.absolute_centres ? Vec2(Vec2::Zero()) : start_2;
+        centre += s.arc_distance == DistanceMode::absolute ? Vec2(Vec2::Zero()) : start_2;
     }
     try {
         check_centre(start_2, end_2, centre, within, s.plane, column);

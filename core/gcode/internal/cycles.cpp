@@ -70,7 +70,7 @@ void peck(const Hole& hole, bool break_chips_only) {
 void tap(const Hole& hole, bool right_handed) {
     CanonQueue& out = hole.run.out;
     const bool feed_override = hole.run.feed_override_enabled;
-    const bool speed_override = hole.run.state.speed_override;
+    const bool speed_override = hole.run.state.overrides.speed;
     out.send(CommandKind::disable_feed_override);
     out.send(CommandKind::disable_speed_override);
     hole.feed(hole.bottom);
@@ -246,10 +246,10 @@ double remembered_offset(const CycleMemory& memory, Axis axis) {
 /// The heights of the cycle, and whether the tool has to rise to R first.
 Hole hole_of(Run& run, const PlaneAxes& axes, double initial) {
     const CycleMemory& memory = run.state.cycle;
-    const bool incremental = run.state.incremental;
+    const bool incremental = run.state.distance == DistanceMode::incremental;
     const double r = memory.r + (incremental ? initial : 0.0);
     Hole hole{run, axes, r, 0.0, memory.bottom + (incremental ? r : 0.0)};
-    hole.clear = run.state.retract_to_r || initial < r ? r : initial;
+    hole.clear = run.state.cycle_return == CycleReturn::r_level || initial < r ? r : initial;
     hole.p = memory.p;
     hole.q = memory.q;
     hole.offset_1 = remembered_offset(memory, axes.first);

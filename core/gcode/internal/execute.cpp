@@ -63,22 +63,22 @@ void set_plane(Run& run, const Block& block, int code) {
 }
 
 void set_distance(Run& run, int code) {
-    const bool incremental = code == 910;
-    if (incremental != run.state.incremental) {
+    const DistanceMode wanted = code == 910 ? DistanceMode::incremental : DistanceMode::absolute;
+    if (wanted != run.state.distance) {
         say(run,
-            incremental ? "interpreter: distance mode changed to incremental"
-                        : "interpreter: distance mode changed to absolute");
-        run.state.incremental = incremental;
+            wanted == DistanceMode::incremental ? "interpreter: distance mode changed to incremental"
+                                                : "interpreter: distance mode changed to absolute");
+        run.state.distance = wanted;
     }
 }
 
 void set_arc_distance(Run& run, int code) {
-    const bool absolute = code == 901;
-    if (absolute != run.state.absolute_centres) {
+    const DistanceMode wanted = code == 901 ? DistanceMode::absolute : DistanceMode::incremental;
+    if (wanted != run.state.arc_distance) {
         say(run,
-            absolute ? "interpreter: IJK distance mode changed to absolute"
-                     : "interpreter: IJK distance mode changed to incremental");
-        run.state.absolute_centres = absolute;
+            wanted == DistanceMode::absolute ? "interpreter: IJK distance mode changed to absolute"
+                                             : "interpreter: IJK distance mode changed to incremental");
+        run.state.arc_distance = wanted;
     }
 }
 
@@ -107,7 +107,7 @@ void set_retract(Run& run, const Block& block, int code) {
     }
     const bool to_r = code == 990;
     say(run, to_r ? "interpreter: retract mode set to r_plane" : "interpreter: retract mode set to old_z");
-    run.state.retract_to_r = to_r;
+    run.state.cycle_return = to_r ? CycleReturn::r_level : CycleReturn::initial_level;
 }
 
 void execute_non_modal(Run& run, const Block& block, int code) {
@@ -300,7 +300,8 @@ MoveWords words_of_moves(const Run& run, const Block& block) {
     const int distance = block.code(GGroup::distance);
     words.frame = block.code(GGroup::non_modal) == g53 ? MoveFrame::machine : MoveFrame::work;
     words.incremental =
-        words.frame == MoveFrame::work && (distance == no_code ? run.state.incremental : distance == g91);
+        words.frame == MoveFrame::work &&
+        (distance == no_code ? run.state.distance == DistanceMode::incremental : distance == g91);
     words.inverse_time = run.state.feed_mode == FeedMode::inverse_time;
     return words;
 }

@@ -164,12 +164,12 @@ void execute_coolant(Run& run, int code) {
 
 void set_feed_override(Run& run, bool on) {
     run.out.send(on ? CommandKind::enable_feed_override : CommandKind::disable_feed_override);
-    run.state.feed_override = run.feed_override_enabled = on;
+    run.state.overrides.feed = run.feed_override_enabled = on;
 }
 
 void set_speed_override(Run& run, bool on) {
     run.out.send(on ? CommandKind::enable_speed_override : CommandKind::disable_speed_override);
-    run.state.speed_override = on;
+    run.state.overrides.speed = on;
 }
 
 void execute_override(Run& run, const Block& block, int code) {
@@ -183,11 +183,11 @@ void execute_override(Run& run, const Block& block, int code) {
     }
     if (code == 52) {
         run.out.send(on ? CommandKind::enable_adaptive_feed : CommandKind::disable_adaptive_feed);
-        run.state.adaptive_feed = on;
+        run.state.overrides.adaptive_feed = on;
     }
     if (code == 53) {
         run.out.send(on ? CommandKind::enable_feed_hold : CommandKind::disable_feed_hold);
-        run.state.feed_hold = on;
+        run.state.overrides.feed_hold = on;
     }
 }
 
@@ -206,12 +206,12 @@ void end_program(Run& run, bool shuttle) {
         s.plane = Plane::xy;
         run.out.send(CommandKind::select_plane, static_cast<int>(s.plane));
     }
-    s.incremental = false;
+    s.distance = DistanceMode::absolute;
     s.feed_mode = FeedMode::per_minute;
     run.out.send(CommandKind::set_feed_mode);
     s.feed_rate = 0.0;
     run.out.send(CommandKind::set_feed_rate);
-    if (!s.feed_override) {
+    if (!s.overrides.feed) {
         set_feed_override(run, true);
     }
     // The speed override stays as it is: LinuxCNC 2.9 does not switch it on again.
@@ -250,7 +250,8 @@ int Run::row_of_tool(int number) {
 
 void set_spindle_mode(Run& run, const Block& block, int code) {
     const bool constant_surface = code == 960;
-    run.state.constant_surface_speed = constant_surface;
+    run.state.spindle_mode =
+        constant_surface ? SpindleMode::constant_surface_speed : SpindleMode::constant_speed;
     const double limit = block.has('D') ? std::abs(block['D']) : unlimited_rpm;
     run.out.post(CommandKind::set_spindle_mode, 0, constant_surface ? limit : 0.0);
 }

@@ -59,14 +59,16 @@ private:
 std::string g_words(const ModalState& now, const ModalState& saved) {
     Difference difference(now, saved);
     difference.g([](const ModalState& s) { return plane_code(s.plane); });
-    difference.g([](const ModalState& s) { return s.incremental ? 910 : 900; });
+    difference.g([](const ModalState& s) { return s.distance == DistanceMode::incremental ? 910 : 900; });
     difference.g([](const ModalState& s) { return feed_mode_code(s.feed_mode); });
     difference.g([](const ModalState& s) { return system_code(s.coordinate_system); });
     difference.g([](const ModalState& s) { return tool_length_code(s.tool_offset); });
-    difference.g([](const ModalState& s) { return s.retract_to_r ? 990 : 980; });
+    difference.g([](const ModalState& s) { return s.cycle_return == CycleReturn::r_level ? 990 : 980; });
     difference.g([](const ModalState& s) { return path_code(s.path_mode); });
-    difference.g([](const ModalState& s) { return s.constant_surface_speed ? 960 : 970; });
-    difference.g([](const ModalState& s) { return s.absolute_centres ? 901 : 911; });
+    difference.g([](const ModalState& s) {
+        return s.spindle_mode == SpindleMode::constant_surface_speed ? 960 : 970;
+    });
+    difference.g([](const ModalState& s) { return s.arc_distance == DistanceMode::absolute ? 901 : 911; });
     difference.g([](const ModalState& s) { return s.diameter_mode ? 70 : 80; });
     std::string words = difference.words();
     if (saved.path_mode == program::PathMode::continuous && now.path_mode != saved.path_mode) {
@@ -80,7 +82,8 @@ std::string g_words(const ModalState& now, const ModalState& saved) {
 
 std::string number_words(const ModalState& now, const ModalState& saved) {
     std::string words;
-    const bool needs_speed = saved.constant_surface_speed && !now.constant_surface_speed;
+    const bool needs_speed =
+        saved.spindle_mode == SpindleMode::constant_surface_speed && now.spindle_mode != saved.spindle_mode;
     if (!exactly_equal(now.feed_rate, saved.feed_rate) && saved.feed_mode != FeedMode::inverse_time) {
         words += " F" + shortest(saved.feed_rate);
     }
@@ -106,19 +109,20 @@ std::vector<std::string> m_words(const ModalState& now, const ModalState& saved)
     if (saved.flood && (all_off || !now.flood)) {
         words.emplace_back("M8");
     }
-    const bool same_overrides =
-        now.feed_override == saved.feed_override && now.speed_override == saved.speed_override;
-    if (!same_overrides && saved.feed_override == saved.speed_override) {
-        words.emplace_back(saved.feed_override ? "M48" : "M49");
+    const OverrideSwitches& was = saved.overrides;
+    const OverrideSwitches& is = now.overrides;
+    const bool same_overrides = is.feed == was.feed && is.speed == was.speed;
+    if (!same_overrides && was.feed == was.speed) {
+        words.emplace_back(was.feed ? "M48" : "M49");
     } else if (!same_overrides) {
-        words.emplace_back(saved.feed_override ? "M50 P1" : "M50 P0");
-        words.emplace_back(saved.speed_override ? "M51 P1" : "M51 P0");
+        words.emplace_back(was.feed ? "M50 P1" : "M50 P0");
+        words.emplace_back(was.speed ? "M51 P1" : "M51 P0");
     }
-    if (now.adaptive_feed != saved.adaptive_feed) {
-        words.emplace_back(saved.adaptive_feed ? "M52 P1" : "M52 P0");
+    if (is.adaptive_feed != was.adaptive_feed) {
+        words.emplace_back(was.adaptive_feed ? "M52 P1" : "M52 P0");
     }
-    if (now.feed_hold != saved.feed_hold) {
-        words.emplace_back(saved.feed_hold ? "M53 P1" : "M53 P0");
+    if (is.feed_hold != was.feed_hold) {
+        words.emplace_back(was.feed_hold ? "M53 P1" : "M53 P0");
     }
     return words;
 }

@@ -56,12 +56,12 @@ void set_polar(AxisValues& end, const Block& block, const ModalState& s) {
     const double x = end[Axis::x];
     const double y = end[Axis::y];
     const bool at_origin = exactly_equal(x, 0.0) && exactly_equal(y, 0.0);
-    if (at_origin && (s.incremental || !block.polar_angle)) {
+    if (at_origin && (s.distance == DistanceMode::incremental || !block.polar_angle)) {
         refuse(1, "at the origin, a polar coordinate needs its angle and G90");
     }
     double radius = std::hypot(x, y);
     double angle = std::atan2(y, x);
-    if (s.incremental) {
+    if (s.distance == DistanceMode::incremental) {
         radius += block.polar_radius ? block.radius : 0.0;
         angle += block.polar_angle ? from_degrees(block.angle) : 0.0;
     } else {
@@ -84,7 +84,7 @@ AxisValues end_of_move(const Block& block, const ModalState& s) {
         const auto letter = static_cast<std::size_t>(std::countr_zero(left));
         const double value = block.value[letter];
         double& axis = end[axis_of_letter[letter]];
-        axis = s.incremental ? axis + value : value;
+        axis = s.distance == DistanceMode::incremental ? axis + value : value;
     }
     if (block.polar()) {
         set_polar(end, block, s);

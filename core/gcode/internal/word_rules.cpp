@@ -138,7 +138,7 @@ void check_g53(const Block& block, const ModalState& state, Dialect dialect) {
     }
     const int distance = block.code(GGroup::distance);
     constexpr int g90 = 900;
-    if (distance == no_code ? state.incremental : distance != g90) {
+    if (distance == no_code ? state.distance == DistanceMode::incremental : distance != g90) {
         refuse(column, "G53 cannot be used in incremental mode, G91");
     }
 }

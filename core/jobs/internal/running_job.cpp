@@ -133,7 +133,7 @@ void RunningJob::log_failure(const std::string& why) noexcept {
 Diagnostic RunningJob::log_lost(const std::string& reason) {
     remember(driver_.status());
     const std::string why = log_lost_sentence(last_, blocks(), "its log cannot be written: " + reason);
-    const std::string done = done_text(last_.executed_blocks, blocks(), able_.answers);
+    const std::string done = done_text(last_.executed_blocks, blocks(), able_.reports.execution);
     try {
         LogRecord fault = record(LogEvent::fault, elapsed(), last_);
         fault.text = why;
@@ -156,7 +156,7 @@ void RunningJob::remember(const drivers::DriverStatus& status) {
     if (status.state != drivers::DriverState::disconnected) {
         const drivers::DriverStatus before = std::exchange(last_, status);
         estimate_place(status);
-        last_.planned_time = able_.plans ? time_of_place() : last_.planned_time;
+        last_.planned_time = able_.takes_text() ? time_of_place() : last_.planned_time;
         if (status.position_doubt != doubt_before_) { // what a controller says now is no position
             last_.block = before.block;
             last_.fraction = before.fraction;
@@ -236,7 +236,7 @@ void RunningJob::write_requests() {
 void RunningJob::write_executed() {
     if (last_.executed_blocks > logged_blocks_) {
         logged_blocks_ = last_.executed_blocks;
-        log_->write(record(able_.answers ? LogEvent::executed : LogEvent::sent, elapsed(), last_));
+        log_->write(record(able_.reports.execution ? LogEvent::executed : LogEvent::sent, elapsed(), last_));
     }
 }
 
@@ -263,7 +263,8 @@ void RunningJob::write_waiting() {
 }
 
 void RunningJob::tell(const Progress& progress, const std::function<void(const JobReport&)>& listener) const {
-    const JobReport report{last_, blocks(), elapsed(), planned(), able_.answers, line_of(last_.block)};
+    const JobReport report{
+        last_, blocks(), elapsed(), planned(), able_.reports.execution, line_of(last_.block)};
     progress.report(report.fraction(), report.progress_text());
     if (listener) {
         listener(report);
@@ -298,7 +299,7 @@ JobOutcome RunningJob::outcome(const drivers::DriverStatus& status) {
     result.blocks = blocks();
     result.elapsed = elapsed();
     result.position = last_.position;
-    result.sentence = end_sentence(result.end, last_, result, line_of(last_.block), able_.answers);
+    result.sentence = end_sentence(result.end, last_, result, line_of(last_.block), able_.reports.execution);
     if (last_.position_doubt != doubt_before_ && !last_.position_doubt.empty()) {
         result.sentence += " " + drivers::doubt_sentence(last_.position_doubt);
     }

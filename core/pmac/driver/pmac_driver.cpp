@@ -79,7 +79,9 @@ PmacSession& PmacDriver::talk() const {
 drivers::Capabilities PmacDriver::capabilities() const {
     drivers::Capabilities able;
     able.words = command_words;
-    able.plans = able.overrides = able.jog = able.power = able.home = able.command = true;
+    able.takes = drivers::Capabilities::Takes::text;
+    able.overrides = drivers::Capabilities::OverrideRange::feed;
+    able.manual.jog = able.manual.power = able.manual.home = able.manual.command = true;
     for (const PmacAxis& axis : settings_.axes) {
         able.axes.push_back({axis.letter, kinematics::AxisKind::rotary});
     }

@@ -147,7 +147,7 @@ TEST(Interpreter, BinaryIsRefusedWithThePlace) {
 TEST(Interpreter, StateTellsWhatIsInForce) {
     const ModalState s = read_all("G20 G91 G18 G95 F0.1 S500 M3 M8\nG55 G1 X1 F0.2\n%").state;
     EXPECT_EQ(s.unit, LengthUnit::inch);
-    EXPECT_TRUE(s.incremental);
+    EXPECT_EQ(s.distance, DistanceMode::incremental);
     EXPECT_EQ(s.plane, Plane::xz);
     EXPECT_EQ(s.feed_mode, FeedMode::per_revolution);
     EXPECT_DOUBLE_EQ(s.feed_rate, 0.2);

@@ -105,7 +105,7 @@ TEST(Preview, SaysWhatIsInForceAfterAnyStep) {
         EXPECT_EQ(got.execution.line_of(step), got.lines[step]);
         EXPECT_EQ(seen.motion, is.motion) << step;
         EXPECT_EQ(seen.unit, is.unit);
-        EXPECT_EQ(seen.incremental, is.incremental);
+        EXPECT_EQ(seen.incremental, is.distance == DistanceMode::incremental);
         EXPECT_EQ(seen.plane, is.plane);
         EXPECT_EQ(seen.coordinate_system, is.coordinate_system);
         EXPECT_EQ(seen.spindle, is.spindle);

@@ -59,7 +59,7 @@ ProgramCheck checked(const Job& job) {
 drivers::Capabilities able() {
     drivers::Capabilities can;
     can.dialect = gcode::Dialect::grbl;
-    can.tool_changes = true;
+    can.program.tool_changes = true;
     can.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
     return can;
 }

@@ -119,9 +119,8 @@ TEST(MakeDriver, TellsThatLinuxCncJogsThreeAxesAndOverridesTheFeedAlone) {
     choice.axes = "XYZAC";
     const drivers::Capabilities can = make_driver(choice, {}, clock)->capabilities();
     EXPECT_EQ(can.axes.size(), 5U);
-    EXPECT_EQ(can.jog_axes, "XYZ");
-    EXPECT_TRUE(can.overrides);
-    EXPECT_FALSE(can.other_overrides);
+    EXPECT_EQ(can.manual.jog_axes, "XYZ");
+    EXPECT_EQ(can.overrides, drivers::Capabilities::OverrideRange::feed);
 }
 
 TEST(MakeDriver, RefusesWhatItCannotMake) {

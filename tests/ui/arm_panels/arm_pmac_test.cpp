@@ -169,7 +169,7 @@ TEST(ArmAtPmacU2, TheColonGivesTheKeyboardToTheTerminal) {
         const auto& answer = bench.person.app().look().connection.status.answer;
         return answer.number > before && answer.state == drivers::CommandAnswer::State::done;
     }));
-    EXPECT_EQ(bench.person.app().view_state().manual.commands.back(), "#1P");
+    EXPECT_EQ(bench.person.app().view_state().manual.console.commands.back(), "#1P");
 }
 
 TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
@@ -188,8 +188,8 @@ TEST(ArmAtPmacU2, WhatIsTypedFastBehindTheColonIsForTheTerminal) {
     EXPECT_TRUE(bench.person.app().view_state().manual.arm_keys);
     EXPECT_TRUE(bench.is(DriverState::idle));
     bench.person.press_key(Key::enter);
-    ASSERT_FALSE(bench.person.app().view_state().manual.commands.empty());
-    EXPECT_EQ(bench.person.app().view_state().manual.commands.back(), "#1P");
+    ASSERT_FALSE(bench.person.app().view_state().manual.console.commands.empty());
+    EXPECT_EQ(bench.person.app().view_state().manual.console.commands.back(), "#1P");
 }
 
 TEST(ArmAtPmacU2, AnotherJointBeginsWithAnotherPress) {

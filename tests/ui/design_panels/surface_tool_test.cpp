@@ -90,7 +90,7 @@ TEST_F(SurfaceTools, AMixWithoutAnyShareIsTold) {
 TEST_F(SurfaceTools, ABrushPaintsTheWeightInOneStepAStrokeAndErasesIt) {
     person_.click("inspector/surface_tool/tool/brush");
     ASSERT_EQ(person_.app().view_state().surface_tool.kind, SurfaceToolKind::brush);
-    EXPECT_TRUE(person_.app().view_state().layers_now().weight);
+    EXPECT_TRUE(person_.app().view_state().layers_now().colored.weight);
     person_.fill_in("inspector/surface_tool/radius", "12");
     person_.fill_in("inspector/surface_tool/strength", "1");
     person_.wait_idle();

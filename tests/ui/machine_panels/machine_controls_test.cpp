@@ -126,9 +126,9 @@ TEST_F(MachineControls, TurnSpindleAndCoolantOnAndOff) {
     press("inspector/spindle/stop");
     ASSERT_TRUE(person.live_until([this] { return status().spindle == gcode::SpindleTurning::stopped; }));
     press("inspector/spindle/flood");
-    ASSERT_TRUE(person.live_until([this] { return status().flood; }));
+    ASSERT_TRUE(person.live_until([this] { return status().coolant.flood; }));
     press("inspector/spindle/flood");
-    ASSERT_TRUE(person.live_until([this] { return !status().flood; }));
+    ASSERT_TRUE(person.live_until([this] { return !status().coolant.flood; }));
 }
 
 TEST_F(MachineControls, ChooseAWorkSystemAndMakeItsZeroHere) {

@@ -430,7 +430,7 @@ TEST_F(MachineByHand, SendsALineByEnterAloneAndTellsOfARefusal) {
     person.press_key(render::Key::up);
     person.press_key(render::Key::up);
     person.press_key(render::Key::enter);
-    EXPECT_EQ(person.app().view_state().manual.commands.back(), "G1 X2 F600");
+    EXPECT_EQ(person.app().view_state().manual.console.commands.back(), "G1 X2 F600");
 }
 
 /// A line takes its time, and who goes on typing means the field: keys that jog must not get there.

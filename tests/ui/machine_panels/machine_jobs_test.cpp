@@ -131,7 +131,7 @@ TEST_F(MachineJobs, ThatEndMeanwhileAreNotAskedAbout) {
     person.frames(3);
     test::press_run(person);
     ASSERT_TRUE(person.live_until([&] { return person.app().look().job.outcome.has_value(); }));
-    person.app().view_state().quit_wanted = true; // pressed in the frame before the end was seen
+    person.app().view_state().dialogs.quit = true; // pressed in the frame before the end was seen
     person.frames(2);
     EXPECT_FALSE(person.app().look().asks());
     EXPECT_FALSE(person.app().view_state().quit);

@@ -499,7 +499,7 @@ TEST(PlotWorkspace, APathFileShowsItsStrokesOfEachToolAndItsTravel) {
     const auto red = [](int r, int g, int b) { return r > g + 60 && r > b + 60; };
     bench.person.keep("plot-path-file");
     const int drawn = bench.pixels_like(red);
-    bench.person.app().view_state().layers_now().toolpath = false;
+    bench.person.app().view_state().layers_now().path.intended = false;
     bench.person.frames(3);
     EXPECT_GT(drawn, bench.pixels_like(red) + 1000);
     EXPECT_THAT(bench.person.refusal("inspector/fill/hatch_mm"), HasSubstr("cut unchanged"));

@@ -20,7 +20,8 @@ TEST(GamepadState, PointsAwayFromThePersonForPositiveValues) {
     expected.left_x = 0.5F;
     expected.left_y = 1.0F;
     expected.right_y = -0.25F;
-    expected.left_bumper = expected.cross_down = true;
+    expected.left_bumper = true;
+    expected.cross_y = -1;
     EXPECT_EQ(gamepad_of(state), expected);
 }
 

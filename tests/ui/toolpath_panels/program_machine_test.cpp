@@ -92,8 +92,8 @@ TEST(ProgramOnItsMachine, MovesTheBodiesWithTheCursor) {
     open_for(person, "ac-table", five_axes);
     auto& layers = person.app().view_state().layers_now();
     layers = {};
-    layers.surface = layers.floor = layers.origin = false;
-    layers.machine = true;
+    layers.design.surface = layers.floor = layers.origin = false;
+    layers.machine.bodies = true;
     fit_program(person.app().view_state());
     stand_at(person, 3);
     const render::Picture before = person.picture_of("view/iso");

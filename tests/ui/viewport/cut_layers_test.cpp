@@ -35,7 +35,7 @@ protected:
 
     static Scene bare(const test::Part& part) {
         Scene scene = test::scene_of(part, ViewKind::design);
-        scene.layers = {.surface = false, .floor = false, .origin = false};
+        scene.layers = {.design = {.surface = false}, .floor = false, .origin = false};
         return scene;
     }
 
@@ -44,7 +44,7 @@ protected:
 
 TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
     Scene scene = bare(test::dome);
-    scene.layers.surface = true;
+    scene.layers.design.surface = true;
     const render::View view = look_at(scene);
     plan::CutStudy study;
     study.bites.push_back(
@@ -54,7 +54,7 @@ TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
          {.depth = 0.25, .uv = {0.5, 0.5}, .position = scene.cutting_setup->patch.position(0.5, 0.5)}});
     scene.cut = std::make_shared<const plan::CutStudy>(study);
     EXPECT_EQ(count(picture(scene, view), colors.danger), 0);
-    scene.layers.gouges = true;
+    scene.layers.path.gouges = true;
     EXPECT_GT(count(picture(scene, view), colors.danger), 20);
     const auto labels = this->view().labels(view, colors);
     ASSERT_EQ(labels.size(), 1U);
@@ -67,10 +67,10 @@ TEST_F(CutLayers, GougesAreMarkedWhereTheyAreAndNamed) {
 
 TEST_F(CutLayers, ScallopsColourTheSurface) {
     Scene scene = bare(test::dome);
-    scene.layers.surface = true;
+    scene.layers.design.surface = true;
     const render::View view = look_at(scene);
     const Picture plain = picture(scene, view);
-    scene.layers.scallops = true;
+    scene.layers.colored.scallops = true;
     EXPECT_EQ(picture(scene, view), plain) << "there is no study yet";
     const auto with = [&](double height) {
         plan::CutStudy study;
@@ -90,7 +90,7 @@ TEST_F(CutLayers, ScallopsColourTheSurface) {
 
 TEST_F(CutLayers, TheSetUpsMapStandsBesideThePart) {
     Scene scene = bare(test::dome);
-    scene.layers.surface = true;
+    scene.layers.design.surface = true;
     plan::SetUpResult result;
     result.study.emplace();
     toolpath::SetUpMap& map = result.study->map;
@@ -101,7 +101,7 @@ TEST_F(CutLayers, TheSetUpsMapStandsBesideThePart) {
     scene.set_up = std::make_shared<const plan::SetUpResult>(result);
     scene.set_up_place << now, 0.0;
     const Picture without = picture(scene, look_at(scene));
-    scene.layers.set_up_map = true;
+    scene.layers.machine.set_up_map = true;
     const render::View view = look_at(scene);
     const Picture with = picture(scene, view);
     EXPECT_NE(with, without);

@@ -24,14 +24,14 @@ TEST(LayerSwitches, OfWhatColoursTheSurfaceOnlyOneIsOn) {
     };
     Layers layers = switched(Layers{}, find("error_surface"));
     layers = switched(layers, find("weight"));
-    EXPECT_TRUE(layers.weight);
-    EXPECT_FALSE(layers.error_surface);
+    EXPECT_TRUE(layers.colored.weight);
+    EXPECT_FALSE(layers.colored.errors);
     layers = switched(layers, find("error_surface"));
-    EXPECT_FALSE(layers.weight);
-    EXPECT_TRUE(layers.error_surface);
+    EXPECT_FALSE(layers.colored.weight);
+    EXPECT_TRUE(layers.colored.errors);
     layers = switched(layers, find("produced")); // which lies in nearly the same place
-    EXPECT_TRUE(layers.produced);
-    EXPECT_FALSE(layers.error_surface);
+    EXPECT_TRUE(layers.design.produced);
+    EXPECT_FALSE(layers.colored.errors);
 }
 
 } // namespace

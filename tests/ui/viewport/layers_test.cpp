@@ -66,7 +66,7 @@ protected:
     const render::ViewColors colors = render::view_colors(render::Theme::dark);
 };
 
-constexpr Layers bare_view{.surface = false, .floor = false, .origin = false};
+constexpr Layers bare_view{.design = {.surface = false}, .floor = false, .origin = false};
 
 // T4.
 TEST_F(LayersTest, SurfaceCoversItsPlaceAndNothingElse) {
@@ -127,7 +127,8 @@ TEST_F(LayersTest, ANetThatHasBecomeSmallerHighlightsNothing) {
 TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
     const Scene all = test::scene_of(test::dome, ViewKind::error);
     const render::View view = look_at(all, render::StandardView::top);
-    Scene scene = only(all, {.surface = false, .error_surface = true, .floor = false, .origin = false});
+    Scene scene = only(
+        all, {.design = {.surface = false}, .colored = {.errors = true}, .floor = false, .origin = false});
     plan::CuttingSetup made = *scene.cutting_setup;
     made.trim = {{test::rectangle(0.0, 0.0, 1.0, 1.0), test::circle({0.5, 0.5}, 0.2, 96)}};
     scene.cutting_setup = std::make_shared<const plan::CuttingSetup>(made);
@@ -149,8 +150,8 @@ TEST_F(LayersTest, ColoursOfValuesEndAtTheOutline) {
 }
 
 TEST_F(LayersTest, GridNodesLieOnTheSurface) {
-    const Scene scene =
-        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    const Scene scene = only(test::scene_of(test::two_bell, ViewKind::grid),
+                             {.grid = {.shown = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture seen = picture(scene, view);
     const grid::Grid& grid = scene.shown->outcome.grid;
@@ -162,8 +163,8 @@ TEST_F(LayersTest, GridNodesLieOnTheSurface) {
 }
 
 TEST_F(LayersTest, AnAdaptationOnItsWayTakesThePlaceOfTheGrid) {
-    Scene scene =
-        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::grid),
+                       {.grid = {.shown = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const grid::Grid bent = test::bent_grid(12);
     scene.watched = std::make_shared<const grid::OptimiserState>(grid::OptimiserState{
@@ -175,13 +176,13 @@ TEST_F(LayersTest, AnAdaptationOnItsWayTakesThePlaceOfTheGrid) {
 }
 
 TEST_F(LayersTest, AFineGridLeavesTheSurfaceToBeSeenAndShowsMoreLinesFromNear) {
-    Scene scene =
-        only(test::scene_of(test::two_bell, ViewKind::grid), {.grid = true, .floor = false, .origin = false});
+    Scene scene = only(test::scene_of(test::two_bell, ViewKind::grid),
+                       {.grid = {.shown = true}, .floor = false, .origin = false});
     const grid::Grid fine = grid::Grid::uniform(500, 500);
     scene.watched = std::make_shared<const grid::OptimiserState>(grid::OptimiserState{
         .current = fine.array(), .best = fine, .start = {}, .now = {}, .of_best = {}, .note = {}});
     Scene bare = scene;
-    bare.layers.grid = false;
+    bare.layers.grid.shown = false;
     const auto covered = [&](const render::View& view) {
         const Picture with = picture(scene, view);
         const Picture without = picture(bare, view);
@@ -204,8 +205,9 @@ TEST_F(LayersTest, AFineGridLeavesTheSurfaceToBeSeenAndShowsMoreLinesFromNear) {
 
 /// Pieces of lines that were drawn before the triangles under them stayed as dark dots in these.
 TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInIt) {
-    Scene scene = only(test::scene_of(test::dome, ViewKind::design),
-                       {.surface_lines = true, .deviation = true, .floor = false, .origin = false});
+    Scene scene =
+        only(test::scene_of(test::dome, ViewKind::design),
+             {.design = {.lines = true}, .colored = {.deviation = true}, .floor = false, .origin = false});
     const geometry::Mesh mesh = geometry::tessellate(scene.cutting_setup->patch, 60, 60);
     plan::ReferenceMesh reference;
     reference.fitted.points = mesh.positions;
@@ -214,7 +216,7 @@ TEST_F(LayersTest, LinesOfTheSurfaceLieOnTheDeviationMapInsteadOfLeavingHolesInI
     reference.largest = 0.01;
     scene.reference = std::make_shared<const plan::ReferenceMesh>(reference);
     Scene bare = scene;
-    bare.layers.surface_lines = false;
+    bare.layers.design.lines = false;
     const render::View view = look_at(scene);
     const Picture with = picture(scene, view);
     const Picture without = picture(bare, view);
@@ -242,7 +244,7 @@ Vec3 middle_of(const Scene& scene, std::size_t move) {
 
 TEST_F(LayersTest, ThePathRunsOverTheSurfaceBetweenItsPoints) {
     const Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
-                             {.toolpath = true, .floor = false, .origin = false});
+                             {.path = {.intended = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture seen = picture(scene, view);
     for (const std::size_t move : {25U, 50U, 100U}) {
@@ -265,7 +267,7 @@ double covered(const Picture& with, const Picture& without, const Spot& middle, 
 
 TEST_F(LayersTest, ThePathLeavesTheSurfaceToBeSeenHoweverSmallThePart) {
     const Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
-                             {.toolpath = true, .floor = false, .origin = false});
+                             {.path = {.intended = true}, .floor = false, .origin = false});
     const Scene bare = only(scene, {.floor = false, .origin = false});
     (void)look_at(scene);
     const render::Camera far = render::Camera()
@@ -281,7 +283,7 @@ TEST_F(LayersTest, ThePathLeavesTheSurfaceToBeSeenHoweverSmallThePart) {
 
 TEST_F(LayersTest, WhatIsStillToComeIsDim) {
     Scene scene = only(test::scene_of(test::two_bell, ViewKind::toolpath),
-                       {.toolpath = true, .floor = false, .origin = false});
+                       {.path = {.intended = true}, .floor = false, .origin = false});
     scene.now = Moment{.axes = scene.shown->axes.positions[60], .move = 60};
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture seen = picture(scene, view);
@@ -299,7 +301,7 @@ Vec3 actual_middle_of(const Scene& scene, std::size_t move) {
 
 TEST_F(LayersTest, TheActualPathHasTheColourOfItsError) {
     const Scene scene = only(test::scene_of(test::two_bell, ViewKind::error),
-                             {.error_path = true, .floor = false, .origin = false});
+                             {.path = {.errors = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture seen = picture(scene, view);
     const render::ColorScale scale = error_colors(scene, colors.over_limit);
@@ -312,7 +314,7 @@ TEST_F(LayersTest, TheActualPathHasTheColourOfItsError) {
 
 TEST_F(LayersTest, WhatIsOverTheToleranceHasTheSignalColour) {
     Scene scene = only(test::scene_of(test::two_bell, ViewKind::error),
-                       {.error_path = true, .floor = false, .origin = false});
+                       {.path = {.errors = true}, .floor = false, .origin = false});
     scene.error.limit = 1e-5;
     const render::View view = look_at(scene, render::StandardView::top);
     EXPECT_TRUE(shows(picture(scene, view), spot(view, actual_middle_of(scene, 50)), colors.over_limit));
@@ -324,7 +326,7 @@ TEST_F(LayersTest, TheSurfaceCanCarryTheErrors) {
     Scene scene = only(test::scene_of(test::two_bell, ViewKind::error), {.floor = false, .origin = false});
     const render::View view = look_at(scene);
     const Picture plain = picture(scene, view);
-    scene.layers.error_surface = true;
+    scene.layers.colored.errors = true;
     const Picture colored = picture(scene, view);
     test::keep(colored, "layers-error-surface");
     const Spot middle = spot(view, scene.cutting_setup->patch.position(0.5, 0.5));
@@ -343,7 +345,7 @@ TEST_F(LayersTest, TheWeightColoursTheSurfaceByItsValue) {
     scene.weight = ramp();
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture plain = picture(scene, view);
-    scene.layers.weight = true;
+    scene.layers.colored.weight = true;
     const Picture seen = picture(scene, view);
     const auto yellow = [&](double u) {
         const Spot at = spot(view, scene.cutting_setup->patch.position(u, 0.5));
@@ -362,13 +364,13 @@ TEST_F(LayersTest, AWeightOrAnErrorThatIsNotThereLeavesTheSurfaceAsItIs) {
     scene.shown = nullptr;
     const render::View view = look_at(scene);
     const Picture plain = picture(scene, view);
-    scene.layers.weight = scene.layers.error_surface = true;
+    scene.layers.colored.weight = scene.layers.colored.errors = true;
     EXPECT_EQ(picture(scene, view), plain);
 }
 
 TEST_F(LayersTest, SingularPointsAreRinged) {
     const Scene scene = only(test::scene_of(test::dome, ViewKind::grid),
-                             {.singular_points = true, .floor = false, .origin = false});
+                             {.machine = {.singular_points = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene, render::StandardView::top);
     const Picture seen = picture(scene, view);
     ASSERT_FALSE(scene.singular_points.empty());
@@ -378,8 +380,9 @@ TEST_F(LayersTest, SingularPointsAreRinged) {
 }
 
 TEST_F(LayersTest, TheToolStandsOnItsTip) {
-    Scene scene = only(test::scene_of(test::dome, ViewKind::toolpath),
-                       {.surface = true, .tool = true, .floor = false, .origin = false});
+    Scene scene =
+        only(test::scene_of(test::dome, ViewKind::toolpath),
+             {.design = {.surface = true}, .machine = {.tool = true}, .floor = false, .origin = false});
     const render::View view = look_at(scene);
     const Picture without = picture(scene, view);
     scene.now = test::half_way(scene);
@@ -400,7 +403,8 @@ TEST_F(LayersTest, TheToolOfATableStandsWhereTheTableIsAndNotWhereTheProgramIsPl
     plot->cuts.push_back({1, {}, path});
     auto program = std::make_shared<plan::OpenedProgram>();
     program->path = path;
-    Scene scene = only({}, {.surface = false, .tool = true, .floor = false, .origin = false});
+    Scene scene =
+        only({}, {.design = {.surface = false}, .machine = {.tool = true}, .floor = false, .origin = false});
     scene.plot = plot;
     scene.opened = program;
     const render::View view = look_at(scene);
@@ -438,7 +442,8 @@ TEST_F(LayersTest, ThePartOnTheTableTurnsWithIt) {
     const Frame m_T_w = kinematics::m_T_w(scene.cutting_setup->machine, scene.now->axes);
     const render::View view = look_at(scene);
     Scene bare = scene;
-    bare.layers = {.surface = false, .machine = true, .floor = false, .origin = false};
+    bare.layers = {
+        .design = {.surface = false}, .machine = {.bodies = true}, .floor = false, .origin = false};
     const Spot at = spot(view, m_T_w * middle);
     EXPECT_NE(picture(scene, view).at(at.x, at.y), picture(bare, view).at(at.x, at.y));
 }

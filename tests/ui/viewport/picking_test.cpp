@@ -198,7 +198,7 @@ TEST(PickMove, FindsNothingWhereNoPathIsShown) {
     const render::View view = part_from_above();
     const glm::dvec2 pixel = pixel_of(view, scene.shown->toolpath.points[3].pose.tip);
     EXPECT_FALSE(pick_move(scene, view, pixel, 400.0, std::nullopt, 0.0));
-    scene.layers.toolpath = true;
+    scene.layers.path.intended = true;
     EXPECT_TRUE(pick_move(scene, view, pixel, 400.0, std::nullopt, 0.0));
 }
 

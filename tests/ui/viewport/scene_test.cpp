@@ -40,7 +40,7 @@ TEST(Scenes, AreEqualUntilSomethingThatIsSeenChanges) {
 TEST(SceneFrame, IsTheWorkpiecesUnlessTheMachineIsShown) {
     Scene scene = test::scene_of(test::dome, ViewKind::error);
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(Frame::Identity()));
-    scene.layers.machine = true;
+    scene.layers.machine.bodies = true;
     scene.now = test::half_way(scene);
     const Frame expected = kinematics::m_T_w(scene.cutting_setup->machine, scene.now->axes);
     EXPECT_TRUE(scene_from_workpiece(scene).isApprox(expected));

@@ -65,13 +65,13 @@ protected:
 
 TEST_F(StockLayer, IsDrawnInPlaceOfTheSurfaceByItsTolerance) {
     Scene scene = test::scene_of(test::dome, ViewKind::design);
-    scene.layers = {.surface = true, .floor = false, .origin = false};
+    scene.layers = {.design = {.surface = true}, .floor = false, .origin = false};
     const render::View view = look_at(scene);
     const render::Picture surface = picture(scene, view);
     scene.stock = std::make_shared<const plan::StockPicture>(tetrahedron(30.0));
     const render::Picture coarse = picture(scene, view);
     EXPECT_NE(coarse, surface);
-    scene.layers.surface = false;
+    scene.layers.design.surface = false;
     EXPECT_EQ(picture(scene, view), coarse) << "the surface was hidden";
     scene.stock_tolerance = 5.0;
     EXPECT_NE(picture(scene, view), coarse);
@@ -79,7 +79,7 @@ TEST_F(StockLayer, IsDrawnInPlaceOfTheSurfaceByItsTolerance) {
 
 TEST_F(StockLayer, ExcessThatIsUncutHasTheColourOfTheStock) {
     Scene scene = test::scene_of(test::dome, ViewKind::design);
-    scene.layers = {.surface = true, .floor = false, .origin = false};
+    scene.layers = {.design = {.surface = true}, .floor = false, .origin = false};
     const render::View view = look_at(scene);
     plan::StockPicture stock = tetrahedron(30.0);
     const auto picture_at = [&](double tolerance) {

@@ -43,7 +43,7 @@ TEST_F(ViewportTest, FitsItsContentAtFirst) {
 TEST_F(ViewportTest, LabelsOfOnePlaceDoNotCoverEachOther) {
     show(ViewKind::design, test::two_bell);
     ASSERT_FALSE(scene.singular_points.empty());
-    scene.layers = {.singular_points = true, .gouges = true, .origin = false};
+    scene.layers = {.path = {.gouges = true}, .machine = {.singular_points = true}, .origin = false};
     scene.singular_points.resize(1);
     const Vec3 place = scene.singular_points.front().position;
     plan::CutStudy study;
@@ -443,7 +443,7 @@ TEST_F(ViewportTest, IsSmoothSoonAfterTheWheelHasStopped) {
 TEST_F(ViewportTest, ASingleChangeIsSmoothAtOnce) {
     show(ViewKind::design);
     frame();
-    scene.layers.surface_lines = !scene.layers.surface_lines;
+    scene.layers.design.lines = !scene.layers.design.lines;
     frame();
     const render::Picture changed = picture();
     frame();

@@ -207,7 +207,7 @@ TEST_F(StartSheetAtGrbl, AProgramOfAxesThatTheMachineDoesNotHaveIsNotOffered) {
     EXPECT_THAT(person.refusal("inspector/job/machine_run"),
                 testing::AllOf(HasSubstr("The program moves A and B, but "),
                                HasSubstr("the connected machine has only X, Y and Z. Connect a machine")));
-    EXPECT_FALSE(scene_of(person.app().look()).layers.machine); // that of another machine
+    EXPECT_FALSE(scene_of(person.app().look()).layers.machine.bodies); // that of another machine
     EXPECT_TRUE(person.sees("inspector/job/axes"));
     person.keep("machine-other-axes");
     person.app().run("machine.run");

@@ -39,7 +39,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.arm || !scene.layers.arm) {
+        if (!scene.arm || !scene.layers.arm.body) {
             return;
         }
         if (scene.arm->look->bodies.empty()) {

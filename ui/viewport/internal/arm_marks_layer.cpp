@@ -146,7 +146,7 @@ public:
         if (!scene.arm) {
             return;
         }
-        if (scene.layers.arm_reach) {
+        if (scene.layers.arm.reach) {
             draw_shell(canvas, scene.arm->joints);
         }
         if (scene.arm->ghost) {
@@ -157,22 +157,22 @@ public:
                          .depth = render::Depth::ghost,
                          .moving_only = true});
         }
-        if (scene.layers.joint_limits) {
+        if (scene.layers.arm.joint_limits) {
             draw_ranges(canvas, scene.arm->joints);
         }
         draw_paths(scene, canvas);
         const auto& grip = canvas.highlight.arm;
-        if (scene.layers.toolpath && scene.arm->part) {
+        if (scene.layers.path.intended && scene.arm->part) {
             draw_frame(canvas, *scene.arm->part, grip && grip->is_part());
         }
-        if (scene.layers.tool_frame) {
+        if (scene.layers.arm.tool_frame) {
             draw_frame(canvas, arm::base_T_tool(look_->arm(), scene.arm->joints), grip && grip->is_tip());
         }
     }
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
         std::vector<Label> all;
-        if (scene.arm && scene.layers.tool_frame) {
+        if (scene.arm && scene.layers.arm.tool_frame) {
             constexpr std::array names{"x", "y", "z"};
             const std::array colors{canvas.colors.axis_x, canvas.colors.axis_y, canvas.colors.axis_z};
             const Frame tool = arm::base_T_tool(look_->arm(), scene.arm->joints);
@@ -255,10 +255,10 @@ private:
     }
 
     void draw_paths(const Scene& scene, const Canvas& canvas) const {
-        if (scene.layers.trace) {
+        if (scene.layers.path.trace) {
             draw_trace(canvas);
         }
-        if (scene.layers.toolpath) {
+        if (scene.layers.path.intended) {
             draw_track(canvas);
         }
     }

@@ -50,7 +50,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.control_net || !surface_) {
+        if (!scene.layers.design.control_net || !surface_) {
             return;
         }
         draw_lines(canvas, render::Depth::overlay, 0.5F * hidden_net_opacity);
@@ -63,8 +63,8 @@ public:
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        return scene.layers.control_net ? moved(outline_, scene_from_workpiece(scene))
-                                        : std::vector<glm::dvec3>{};
+        return scene.layers.design.control_net ? moved(outline_, scene_from_workpiece(scene))
+                                               : std::vector<glm::dvec3>{};
     }
 
 private:

@@ -36,10 +36,10 @@ PathLines actual_lines(const plan::CuttingSetup& cutting_setup,
 class ErrorLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (scene.layers.error_path) {
+        if (scene.layers.path.errors) {
             update_path(scene);
         }
-        if (scene.layers.error_surface && !of_surface_.same(scene)) {
+        if (scene.layers.colored.errors && !of_surface_.same(scene)) {
             of_surface_.follow(scene);
             surface_ = of_surface_.complete() ? error_surface(*scene.cutting_setup, *scene.shown)
                                               : render::MeshBuffer();
@@ -55,7 +55,7 @@ public:
                 {.coloring = by_error, .model = canvas.s_T_w, .back_color = {}, .highlight = 0.05F},
                 canvas.view);
         }
-        if (!scene.layers.error_path) {
+        if (!scene.layers.path.errors) {
             return;
         }
         // Where the tool gouges, its way lies under the surface.

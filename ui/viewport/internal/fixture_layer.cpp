@@ -93,7 +93,8 @@ SolidBuffers block(const Box3& part, double share, double low, double high) {
 class FixtureLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.machine || (scene.surface == surface_ && scene.cutting_setup == cutting_setup_)) {
+        if (!scene.layers.machine.bodies ||
+            (scene.surface == surface_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         surface_ = scene.surface;
@@ -107,7 +108,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.machine || !scene.layers.surface) {
+        if (!scene.layers.machine.bodies || !scene.layers.design.surface) {
             return;
         }
         walls_.draw(canvas, canvas.s_T_w, canvas.colors.surface);

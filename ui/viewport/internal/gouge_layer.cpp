@@ -26,7 +26,7 @@ const plan::BlockBite* deepest_of(const plan::CutStudy& cut, bool by_holder) {
 class GougeLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.gouges || scene.cut == cut_) {
+        if (!scene.layers.path.gouges || scene.cut == cut_) {
             return;
         }
         cut_ = scene.cut;
@@ -48,7 +48,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.gouges || !scene.cut) {
+        if (!scene.layers.path.gouges || !scene.cut) {
             return;
         }
         const render::ViewColors& colors = canvas.colors;
@@ -59,7 +59,7 @@ public:
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
         std::vector<Label> labels;
-        if (!scene.layers.gouges || !scene.cut) {
+        if (!scene.layers.path.gouges || !scene.cut) {
             return labels;
         }
         const Frame s_T_w = scene_from_workpiece(scene);

@@ -121,25 +121,25 @@ private:
 class GridLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (scene.layers.grid && scene.watched) {
+        if (scene.layers.grid.shown && scene.watched) {
             grid_.update(scene.watched, &scene.watched->current, scene.cutting_setup);
-        } else if (scene.layers.grid) {
+        } else if (scene.layers.grid.shown) {
             follow(grid_, scene.shown, scene.cutting_setup);
         }
-        if (scene.layers.start_grid) {
+        if (scene.layers.grid.start) {
             follow(start_, scene.start, scene.cutting_setup);
         }
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
         const render::ViewColors& colors = canvas.colors;
-        if (scene.layers.start_grid) {
+        if (scene.layers.grid.start) {
             const GridBuffers& start = start_.buffers(canvas);
             const glm::vec4 dim = with_opacity(colors.net, 0.45F);
             draw_lines(canvas, start.across, dim, 1.0F);
             draw_lines(canvas, start.tracks, dim, 1.0F);
         }
-        if (scene.layers.grid) {
+        if (scene.layers.grid.shown) {
             // The dark end of a colour map would swallow dark lines.
             const bool is_plain = surface_colors(scene) == SurfaceColors::plain;
             const glm::vec3 line = is_plain ? colors.wire : colors.handle;

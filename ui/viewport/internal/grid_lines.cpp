@@ -108,7 +108,7 @@ std::vector<int> line_numbers(int count, int each) {
 }
 
 const grid::NodeArray* shown_nodes(const Scene& scene) {
-    if (!scene.layers.grid || !scene.cutting_setup) {
+    if (!scene.layers.grid.shown || !scene.cutting_setup) {
         return nullptr;
     }
     if (scene.watched) {

@@ -55,7 +55,7 @@ Legend stock_legend(double tolerance) {
 std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors) {
     std::vector<Legend> found;
     const SurfaceColors surface = surface_colors(scene);
-    if (scene.shown && (scene.layers.error_path || surface == SurfaceColors::error)) {
+    if (scene.shown && (scene.layers.path.errors || surface == SurfaceColors::error)) {
         found.push_back({"legend",
                          "Error",
                          "mm",
@@ -71,7 +71,8 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
              "Scallop height. The signal colour marks larger values and areas that are not machined.",
              scallop_colors(scene, colors.over_limit)});
     }
-    if (scene.layers.set_up_map && scene.set_up && scene.set_up->study && reaches(*scene.set_up->study)) {
+    if (scene.layers.machine.set_up_map && scene.set_up && scene.set_up->study &&
+        reaches(*scene.set_up->study)) {
         found.push_back({"set_up_legend",
                          "Set-up",
                          "mm",
@@ -90,7 +91,7 @@ std::vector<Legend> legends(const Scene& scene, const render::ViewColors& colors
              "Distance of the imported triangles from the patch; positive on the side of its normal.",
              deviation_colors(scene)});
     }
-    if (scene.layers.toolpath && scene.plot && scene.plot->carved) {
+    if (scene.layers.path.intended && scene.plot && scene.plot->carved) {
         found.push_back({"depth_legend",
                          "Depth",
                          "mm",

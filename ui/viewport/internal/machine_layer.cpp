@@ -67,7 +67,7 @@ public:
         const bool own =
             !scene.opened && scene.machine_solids && machine && fit(*machine, *scene.machine_solids);
         const auto solids = own ? scene.machine_solids : nullptr;
-        if (!scene.layers.machine ||
+        if (!scene.layers.machine.bodies ||
             (machine == machine_ && solids == solids_ && exactly_equal(height, height_of_tool_))) {
             return;
         }
@@ -90,7 +90,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.machine || !machine_) {
+        if (!scene.layers.machine.bodies || !machine_) {
             return;
         }
         const kinematics::AxisPositions axes = axes_now(scene);
@@ -109,7 +109,7 @@ public:
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
         std::vector<glm::dvec3> all;
-        const auto machine = scene.layers.machine ? machine_of(scene) : nullptr;
+        const auto machine = scene.layers.machine.bodies ? machine_of(scene) : nullptr;
         if (machine) {
             const std::vector<Frame> poses = body_poses(*machine, axes_now(scene));
             for (std::size_t k = 0; k < poses.size(); ++k) {

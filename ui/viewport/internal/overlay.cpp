@@ -215,7 +215,7 @@ visible_labels(const SceneView& view, const Scene& scene, const SurfacePicker& p
         const render::Ray sight = render::ray(pane.view, seen->pixel);
         const auto hit = picker.hit(sight, s_T_w);
         const double away = glm::dot(label.position - sight.origin, sight.direction);
-        return scene.layers.surface && hit && away > hit->distance + tolerance;
+        return scene.layers.design.surface && hit && away > hit->distance + tolerance;
     });
     return labels;
 }

@@ -152,17 +152,17 @@ public:
         if (!scene.plot) {
             return;
         }
-        const bool looks = scene.layers.surface && look_ && !shown_;
+        const bool looks = scene.layers.design.surface && look_ && !shown_;
         if (shown_) {
             draw_picture(canvas);
         } else if (looks) {
             draw_look(scene, canvas);
         }
         const bool rows = covers_picture(scene); // would hide what they leave
-        if (scene.layers.toolpath && !(rows && looks)) {
+        if (scene.layers.path.intended && !(rows && looks)) {
             draw_paths(scene, canvas);
         }
-        if (scene.layers.tool && scene.table_tip) {
+        if (scene.layers.machine.tool && scene.table_tip) {
             tool_.draw(canvas, *scene.table_tip, Vec3::UnitZ());
         }
     }
@@ -198,7 +198,7 @@ private:
         const double share = 1.0 / static_cast<double>(cuts_.size() + 1);
         render::PathStyle style;
         style.model = canvas.s_T_w;
-        const bool on_plate = scene.layers.surface && look_ && !shown_ && !scene.against_light;
+        const bool on_plate = scene.layers.design.surface && look_ && !shown_ && !scene.against_light;
         style.color =
             only_feeds(on_plate ? air_shade * canvas.colors.surface : canvas.colors.rapid, air_opacity);
         air_.draw(scene, canvas, style, rough, -1, share);

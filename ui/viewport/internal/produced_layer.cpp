@@ -107,7 +107,8 @@ render::LineBuffer produced_lines_across(const ProducedSurface& surface, int ste
 class ProducedLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.produced || (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
+        if (!scene.layers.design.produced ||
+            (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
         shown_ = scene.shown;
@@ -122,7 +123,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.produced) {
+        if (!scene.layers.design.produced) {
             return;
         }
         const render::ViewColors& colors = canvas.colors;
@@ -145,8 +146,8 @@ public:
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        return scene.layers.produced ? moved(outline_, scene_from_workpiece(scene))
-                                     : std::vector<glm::dvec3>{};
+        return scene.layers.design.produced ? moved(outline_, scene_from_workpiece(scene))
+                                            : std::vector<glm::dvec3>{};
     }
 
 private:

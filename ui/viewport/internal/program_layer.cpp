@@ -53,7 +53,7 @@ public:
         if (!scene.opened) {
             return;
         }
-        if (scene.layers.toolpath && !scene.plot) { // a plot has its own colours
+        if (scene.layers.path.intended && !scene.plot) { // a plot has its own colours
             draw_path(scene, canvas);
         }
         if (canvas.highlight.path_point) {
@@ -62,8 +62,8 @@ public:
         }
         if (scene.opened_now) {
             draw_thick(canvas, current_, canvas.colors.selected);
-            const bool has_its_own = scene.layers.machine && scene.opened->machine;
-            if (scene.layers.tool && !has_its_own && !scene.table_tip) {
+            const bool has_its_own = scene.layers.machine.bodies && scene.opened->machine;
+            if (scene.layers.machine.tool && !has_its_own && !scene.table_tip) {
                 tool_.draw(canvas, scene.opened_now->tip, scene.opened_now->axis);
             }
         }
@@ -88,7 +88,7 @@ private:
         style.model = canvas.s_T_w;
         const bool moving = canvas.edges == render::Edges::rough || !scene.opened->finished;
         const std::int64_t done =
-            scene.opened_now && scene.layers.trace ? scene.opened_now->place.point - 1 : 0;
+            scene.opened_now && scene.layers.path.trace ? scene.opened_now->place.point - 1 : 0;
         path_.draw(scene, canvas, style, moving, done);
     }
 

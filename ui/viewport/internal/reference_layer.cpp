@@ -83,7 +83,7 @@ public:
         const render::MeshStyle plain = {.coloring = {.color = with_opacity(canvas.colors.neutral[5], 1.0F)},
                                          .model = canvas.s_T_w,
                                          .back_color = canvas.colors.neutral[3]};
-        if (scene.layers.reference) {
+        if (scene.layers.design.reference) {
             canvas.painter.mesh(rest_, plain, canvas.view);
             draw_points(rest_points_, plain.coloring, canvas);
         }
@@ -95,15 +95,16 @@ public:
                 {.coloring = by_deviation, .model = canvas.s_T_w, .back_color = {}, .highlight = 0.05F},
                 canvas.view);
             draw_points(fitted_points_, by_deviation, canvas);
-        } else if (scene.layers.reference) {
+        } else if (scene.layers.design.reference) {
             canvas.painter.mesh(fitted_, plain, canvas.view);
             draw_points(fitted_points_, plain.coloring, canvas);
         }
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        return scene.layers.reference || scene.layers.deviation ? moved(outline_, scene_from_workpiece(scene))
-                                                                : std::vector<glm::dvec3>{};
+        return scene.layers.design.reference || scene.layers.colored.deviation
+                   ? moved(outline_, scene_from_workpiece(scene))
+                   : std::vector<glm::dvec3>{};
     }
 
 private:

@@ -50,7 +50,7 @@ public:
     void update(const Scene& scene) override {
         const bool same = made_from_ == scene.set_up && cutting_setup_ == scene.cutting_setup &&
                           place_.isApprox(scene.set_up_place, 0.0);
-        if (!scene.layers.set_up_map || same) {
+        if (!scene.layers.machine.set_up_map || same) {
             return;
         }
         made_from_ = scene.set_up;
@@ -70,7 +70,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.set_up_map || !shown_) {
+        if (!scene.layers.machine.set_up_map || !shown_) {
             return;
         }
         if (has_plane_) {
@@ -91,8 +91,8 @@ public:
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        return scene.layers.set_up_map && shown_ ? moved(corners_, scene_from_workpiece(scene))
-                                                 : std::vector<glm::dvec3>{};
+        return scene.layers.machine.set_up_map && shown_ ? moved(corners_, scene_from_workpiece(scene))
+                                                         : std::vector<glm::dvec3>{};
     }
 
 private:

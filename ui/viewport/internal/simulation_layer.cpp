@@ -46,7 +46,7 @@ public:
         if (traced(scene)) {
             draw_trace(scene, canvas);
         }
-        if (scene.layers.tool && (!scene.layers.machine || has_cutter(scene))) {
+        if (scene.layers.machine.tool && (!scene.layers.machine.bodies || has_cutter(scene))) {
             draw_tool(scene, canvas);
         }
     }
@@ -58,7 +58,7 @@ private:
 
     /// The error layer draws the same way in colours of its own.
     static bool traced(const Scene& scene) {
-        return scene.layers.trace && scene.now && scene.now->move >= 0 && !scene.layers.error_path;
+        return scene.layers.path.trace && scene.now && scene.now->move >= 0 && !scene.layers.path.errors;
     }
 
     static PathLines trace_of(const plan::CuttingSetup& cutting_setup, const plan::Evaluation& shown) {

@@ -14,7 +14,7 @@ constexpr std::size_t most_named = 6; // more names would cover each other
 class SingularLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        if (!scene.layers.singular_points) {
+        if (!scene.layers.machine.singular_points) {
             return;
         }
         std::vector<render::PointVertex> points;
@@ -30,7 +30,7 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.singular_points) {
+        if (!scene.layers.machine.singular_points) {
             return;
         }
         const render::ViewColors& colors = canvas.colors;
@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
         std::vector<Label> labels;
-        if (scene.layers.singular_points && scene.singular_points.size() <= most_named) {
+        if (scene.layers.machine.singular_points && scene.singular_points.size() <= most_named) {
             for (const toolpath::SingularPoint& point : scene.singular_points) {
                 labels.push_back({render::to_glm(scene_from_workpiece(scene) * point.position),
                                   "singular",

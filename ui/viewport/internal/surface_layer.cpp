@@ -72,14 +72,15 @@ public:
     }
 
     void draw(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.surface || shows_stock(scene)) {
+        if (!scene.layers.design.surface || shows_stock(scene)) {
             return;
         }
         const render::ViewColors& colors = canvas.colors;
         render::MeshStyle style = {.coloring = {.color = with_opacity(colors.surface, 1.0F)},
                                    .model = canvas.s_T_w,
                                    .back_color = colors.surface_back};
-        if (scene.layers.produced) { // which lies now before it, now behind it, by little: it is drawn whole
+        if (scene.layers.design
+                .produced) { // which lies now before it, now behind it, by little: it is drawn whole
             style.coloring.opacity = 0.3F;
             style.depth = render::Depth::ghost;
         }
@@ -104,7 +105,7 @@ public:
             draw_seamed(canvas, loops_, line, nearer(canvas, lift * radius(canvas.content)));
             line.coloring.color = with_opacity(colors.wire, 0.8F);
         }
-        if (scene.layers.surface_lines) {
+        if (scene.layers.design.lines) {
             line.width_px = 1.0F;
             const bool under_mesh = surface_colors(scene) == SurfaceColors::deviation;
             const render::View view =
@@ -117,8 +118,8 @@ public:
     }
 
     [[nodiscard]] std::vector<glm::dvec3> outline(const Scene& scene) const override {
-        return scene.layers.surface ? moved(outline_, scene_from_workpiece(scene))
-                                    : std::vector<glm::dvec3>{};
+        return scene.layers.design.surface ? moved(outline_, scene_from_workpiece(scene))
+                                           : std::vector<glm::dvec3>{};
     }
 
 private:

@@ -118,7 +118,7 @@ Buffers make_toolpath_buffers(const geometry::ParametricSurface& patch, const to
 class ToolpathLayer final : public Layer {
 public:
     void update(const Scene& scene) override {
-        const bool wanted = scene.layers.toolpath || scene.layers.tool_axes;
+        const bool wanted = scene.layers.path.intended || scene.layers.path.tool_axes;
         if (!wanted || (scene.shown == shown_ && scene.cutting_setup == cutting_setup_)) {
             return;
         }
@@ -131,17 +131,17 @@ public:
     void draw(const Scene& scene, const Canvas& canvas) const override {
         const render::ViewColors& colors = canvas.colors;
         const float width = track_width_px(shown_.get(), canvas);
-        if (scene.layers.tool_axes) {
+        if (scene.layers.path.tool_axes) {
             draw_lines(canvas, buffers_.hairs, line_style(canvas, colors.tool, 0.5F * width, 0.8F));
         }
-        if (!scene.layers.toolpath) {
+        if (!scene.layers.path.intended) {
             return;
         }
         const render::LineStyle style = line_style(canvas, colors.path, width, 1.0F);
         draw_moves(scene, canvas, buffers_.tracks, style);
         draw_move(canvas, buffers_.tracks, canvas.highlight.move, style, canvas.view);
         draw_moves(scene, canvas, buffers_.crossings, line_style(canvas, colors.rapid, 0.6F * width, 0.9F));
-        if (scene.layers.machine) {
+        if (scene.layers.machine.bodies) {
             return;
         }
         draw_seamed(canvas, buffers_.arrows, line_style(canvas, colors.path, width, 1.0F), canvas.view);
@@ -150,7 +150,8 @@ public:
     }
 
     [[nodiscard]] std::vector<Label> labels(const Scene& scene, const Canvas& canvas) const override {
-        if (!scene.layers.toolpath || scene.layers.machine || !shown_ || shown_->toolpath.points.empty()) {
+        if (!scene.layers.path.intended || scene.layers.machine.bodies || !shown_ ||
+            shown_->toolpath.points.empty()) {
             return {};
         }
         const auto& points = shown_->toolpath.points;

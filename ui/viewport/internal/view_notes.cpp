@@ -7,7 +7,7 @@
 namespace millwright::viewport {
 
 std::string produced_note(const Scene& scene) {
-    return scene.layers.produced && scene.shown
+    return scene.layers.design.produced && scene.shown
                ? with_full_stop(toolpath::why_no_produced_surface(scene.shown->toolpath))
                : std::string();
 }

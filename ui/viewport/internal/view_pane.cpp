@@ -75,7 +75,7 @@ void ViewPane::set_camera(const render::Camera& camera) {
 }
 
 void ViewPane::look_at(const Scene& scene) {
-    at_ = {scene.sight, scene.arm ? 2 : scene.layers.machine ? 1 : 0};
+    at_ = {scene.sight, scene.arm ? 2 : scene.layers.machine.bodies ? 1 : 0};
     sights_.try_emplace(at_, Sight{.camera = first_});
 }
 
@@ -156,7 +156,8 @@ void ViewPane::fit_if_needed(const Frame3D& frame, const widgets::Rect& place) {
 /// The camera looks at the middle of the whole picture, so that it is moved aside by half of what is taken.
 void ViewPane::fit_into(const Frame3D& frame, const widgets::Rect& place, const widgets::Rect& free) {
     Sight& sight = this->sight();
-    if (frame.scene.layers.machine && sight.camera.pose().projection == render::Projection::perspective) {
+    if (frame.scene.layers.machine.bodies &&
+        sight.camera.pose().projection == render::Projection::perspective) {
         sight.camera = part_in_sight(frame.scene, sight.camera);
     }
     std::vector<glm::dvec3> outline = frame.view.outline();
@@ -306,7 +307,7 @@ void ViewPane::record_handles(const Frame3D& frame, const Pane& pane) const {
     if (frame.scene.arm) {
         return record_arm(frame, pane);
     }
-    if (!frame.scene.layers.control_net || !frame.scene.surface) {
+    if (!frame.scene.layers.design.control_net || !frame.scene.surface) {
         return;
     }
     const Frame s_T_w = scene_from_workpiece(frame.scene);

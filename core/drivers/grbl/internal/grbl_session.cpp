@@ -27,10 +27,6 @@ bool GrblSession::active() const {
            stage_ == Stage::homing || stage_ == Stage::foreign;
 }
 
-std::string GrblSession::take_output() {
-    return std::exchange(output_, {});
-}
-
 /// What was doubted before a link broke still is.
 void GrblSession::opened(double now) {
     PositionDoubt doubt = std::move(doubt_);
@@ -77,7 +73,7 @@ void GrblSession::lost(const std::string& why) {
         message_ += what_it_may_execute(in_program);
     }
     output_.clear();
-    settle_answer(message_);
+    answer_.break_off(message_);
     drop_change();
 }
 
@@ -239,7 +235,7 @@ void GrblSession::finish_ending(double now) {
     hold_.state = HoldState::none;
     jogging_.stopping = single_block_.waits = false;
     window_.clear();
-    settle_answer(message_.empty() ? "stopped" : message_);
+    answer_.break_off(message_);
     if (ending_.in_fault) {
         stage_ = Stage::alarm;
     } else {
@@ -260,14 +256,6 @@ void GrblSession::ask_again(Stage then, double now, const std::string& first) {
     last_answer_ = last_heard_ = now;
     idle_unanswered_ = 0;
     ask_next();
-}
-
-/// A command that did not get to its end.
-void GrblSession::settle_answer(const std::string& why_not) {
-    if (answer_.state == CommandAnswer::State::pending) {
-        answer_.state = CommandAnswer::State::refused;
-        answer_.text = why_not;
-    }
 }
 
 void GrblSession::watch_hold(double now) {

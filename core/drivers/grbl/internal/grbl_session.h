@@ -64,7 +64,6 @@ public:
     void closed() override;
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
-    [[nodiscard]] std::string take_output() override;
 
     [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] const Readout& readout() const { return readout_; }
@@ -210,7 +209,6 @@ private:
     void show_machine(DriverStatus& status) const;
     void show_program(DriverStatus& status) const;
     void show_change(DriverStatus& status) const;
-    void settle_answer(const std::string& why_not);
 
     // grbl_session_messages.cpp: what the controller says
     void handle_line(std::string_view line, double now);
@@ -312,7 +310,7 @@ private:
     SessionSettings settings_;
     Stage stage_ = Stage::closed;
     Readout readout_;
-    std::string output_, input_;
+    std::string input_;
     bool link_lost_ = false;
     PositionDoubt doubt_;
 

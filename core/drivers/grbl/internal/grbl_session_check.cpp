@@ -67,7 +67,7 @@ int GrblSession::check(ProgramLines program, double now) {
     check_.modes_before = modes_line(readout_.modes.text);
     check_.refused = 0;
     check_.lines = static_cast<int>(std::ssize(program.lines));
-    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    answer_.begin();
     send_window_.begin(nullptr, program.blocks);
     program.lines.insert(program.lines.begin(), check_mode_toggle(0));
     program.lines.push_back(check_mode_toggle(std::max(0, program.blocks - 1)));
@@ -93,8 +93,7 @@ void GrblSession::refused_in_check(const SentLine& line, const std::string& why,
     constexpr int most_shown = 100;
     const ProgramLine& of = program_.lines[static_cast<std::size_t>(line.index)];
     if (++check_.refused <= most_shown) {
-        answer_.text += answer_.text.empty() ? "" : "\n";
-        answer_.text += fmt::format("line {}: {}: {}", of.line, why, of.text);
+        answer_.add_line(fmt::format("line {}: {}: {}", of.line, why, of.text));
     }
     if (facts().errors_stick) { // it refuses every line from here on
         next_line_ = std::max(next_line_, static_cast<int>(std::ssize(program_.lines)) - 1);

@@ -83,7 +83,7 @@ void GrblSession::finish(double now) {
         ask_again(Stage::ready, now);
         return;
     }
-    if (answer_.state == CommandAnswer::State::pending) {
+    if (answer_.pending()) {
         answer_.state = CommandAnswer::State::done;
         take_zeros();
     }

@@ -49,14 +49,14 @@ void GrblSession::start(ProgramLines program,
         throw Error("the tool length offset of an earlier job is still active", {}, "cancel it with G49");
     }
     begin_job(std::move(changes), program);
-    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
+    answer_.forget();
     send_window_.begin(std::move(ahead), program.blocks);
     begin(std::move(program), Activity::program, now);
 }
 
 int GrblSession::command(ProgramLines lines, double now) {
     require_rest("command");
-    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    answer_.begin();
     send_window_.begin(nullptr, lines.blocks);
     begin(std::move(lines), Activity::command, now);
     return answer_.number;

@@ -102,8 +102,8 @@ void GrblSession::show_machine(DriverStatus& status) const {
     status.modes = modes.text;
     status.work_system = modes.work_system;
     status.spindle = modes.spindle;
-    status.mist = modes.mist;
-    status.flood = modes.flood;
+    status.coolant.mist = modes.mist;
+    status.coolant.flood = modes.flood;
     status.tool = modes.tool;
     const auto pin = [this](char letter) { return readout_.pins.find(letter) != std::string::npos; };
     for (const char axis : readout_.axes) {

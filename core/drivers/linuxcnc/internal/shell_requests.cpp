@@ -23,9 +23,8 @@ void ShellSession::finish(Stage stage, std::string why) {
     jog_feed_.cancel();
     lines_.clear();
     jog_stopping_ = paused_ = false;
-    if (answer_.state == CommandAnswer::State::pending && stage != Stage::stopping) {
-        answer_.state = CommandAnswer::State::refused;
-        answer_.text = message_.empty() ? "stopped" : message_;
+    if (stage != Stage::stopping) {
+        answer_.break_off(message_);
     }
 }
 
@@ -58,7 +57,7 @@ void ShellSession::start(const program::Listing& listing,
                          const std::string& path,
                          double now) {
     require_rest("program");
-    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
+    answer_.forget();
     finish(Stage::running);
     run_ = {.listing = listing, .file = file, .start = position_};
     quiet_rounds_ = 0;
@@ -180,7 +179,7 @@ int ShellSession::command(const std::string& lines, double now) {
     }
     finish(Stage::commanding);
     lines_ = std::move(wanted);
-    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    answer_.begin();
     quiet_rounds_ = 0;
     next_round_ = now;
     set("mode mdi");

@@ -19,10 +19,6 @@ std::string upper(std::string text) {
 
 } // namespace
 
-std::string ShellSession::take_output() {
-    return std::exchange(output_, {});
-}
-
 void ShellSession::send(const std::string& request, std::string subject) {
     output_ += request + "\r\n";
     outstanding_.push_back({request, std::move(subject)});

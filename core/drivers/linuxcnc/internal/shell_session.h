@@ -33,7 +33,6 @@ public:
     void closed() override;
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
-    [[nodiscard]] std::string take_output() override;
 
     [[nodiscard]] DriverStatus status() const override;
     [[nodiscard]] bool greeted() const override {
@@ -110,7 +109,7 @@ private:
 
     ShellSettings settings_;
     Stage stage_ = Stage::closed;
-    std::string output_, input_;
+    std::string input_;
     bool link_lost_ = false;
     std::string message_;
 

@@ -83,8 +83,8 @@ DriverStatus ShellSession::status() const {
     status.overrides = overrides_;
     status.modes = value("PROGRAM_CODES");
     status.work_system = work_system();
-    status.mist = value("MIST") == "ON";
-    status.flood = value("FLOOD") == "ON";
+    status.coolant.mist = value("MIST") == "ON";
+    status.coolant.flood = value("FLOOD") == "ON";
     const auto tool = read_numbers(value("TOOL"));
     status.tool = tool && tool->size() == 1 && std::abs((*tool)[0]) < 1e6 ? static_cast<int>((*tool)[0]) : 0;
     status.answer = answer_;

@@ -171,9 +171,7 @@ void ShellSession::watch_command(double now) {
         next_round_ = now;
         return;
     }
-    if (answer_.state == CommandAnswer::State::pending) {
-        answer_.state = CommandAnswer::State::done;
-    }
+    answer_.end(CommandAnswer::State::done);
     finish(Stage::ready);
 }
 

@@ -58,7 +58,7 @@ DriverStatus VirtualAxes::status() const {
                                           : SpindleTurning::stopped;
     status.spindle_rpm = std::abs(spindle_rpm_) * percent * overrides_.spindle;
     status.overrides = overrides_;
-    status.flood = coolant_;
+    status.coolant.flood = coolant_;
     if (now_ != nullptr) {
         const motion::Sample sample = now_->at(time_);
         if (moving()) {
@@ -215,7 +215,7 @@ void VirtualAxes::start(Work work) {
         throw Error(
             "the virtual machine is not where the motion starts", {}, "plan the motion from its position");
     }
-    answer_ = {answer_.number, CommandAnswer::State::none, {}}; // of a line before it
+    answer_.forget();
     execute(std::move(work), Activity::program);
 }
 
@@ -334,10 +334,7 @@ void VirtualAxes::emergency_stop(std::string why) {
     legs_.clear();
     spindle_rpm_ = 0.0;
     coolant_ = false;
-    if (answer_.state == CommandAnswer::State::pending) {
-        answer_.state = CommandAnswer::State::refused;
-        answer_.text = message_;
-    }
+    answer_.break_off(message_);
 }
 
 void VirtualAxes::reset() {

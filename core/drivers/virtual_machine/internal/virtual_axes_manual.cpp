@@ -100,7 +100,7 @@ void VirtualAxes::home() {
 int VirtualAxes::command(const std::string& lines) {
     require_model("command");
     require_rest("command");
-    answer_ = {answer_.number + 1, CommandAnswer::State::pending, {}};
+    answer_.begin();
     try {
         program::Program program = control_->read(lines, rest_position_);
         if (program.blocks.empty()) {

@@ -140,7 +140,7 @@ bool PmacSession::stopped_by_command(const std::vector<std::string>& lines) {
     } else {
         return false;
     }
-    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    answer_.begin(drivers::CommandAnswer::State::done);
     return true;
 }
 
@@ -181,8 +181,8 @@ bool PmacSession::acted_on_key(const std::vector<std::string>& given) {
     default:
         return false;
     }
-    if (answer_.state != drivers::CommandAnswer::State::pending) {
-        answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    if (!answer_.pending()) {
+        answer_.begin(drivers::CommandAnswer::State::done);
     }
     return true;
 }
@@ -245,10 +245,9 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
     const bool moves =
         stage_ == Stage::moving_by_command || stage_ == Stage::commanding || (rests() && !standing());
     if (!moves && std::all_of(lines.begin(), lines.end(), only_aborts)) {
-        answer_ = {
-            answer_.number + 1,
+        answer_.begin(
             drivers::CommandAnswer::State::done,
-            fmt::format("nothing moves; {} is disabled, and the command did not enable it", name_of(*to))};
+            fmt::format("nothing moves; {} is disabled, and the command did not enable it", name_of(*to)));
         return true;
     }
     if (!moves || !std::all_of(lines.begin(), lines.end(), only_stops)) {
@@ -260,7 +259,7 @@ bool PmacSession::brakes_instead(const std::vector<std::string>& lines) {
     command_.lines.clear();
     finish(Stage::stopping);
     braking_.due = true; // the next report tells which move
-    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::done, {}};
+    answer_.begin(drivers::CommandAnswer::State::done);
     return true;
 }
 
@@ -291,12 +290,11 @@ void PmacSession::check_open(const std::vector<std::string>& lines) const {
 void PmacSession::keep_until_close(const std::vector<std::string>& lines) {
     typed_.keep(lines);
     const std::size_t count = typed_.kept().size() - 1;
-    answer_ = {answer_.number + 1,
-               drivers::CommandAnswer::State::done,
-               fmt::format("{}: {} {} kept until CLOSE",
-                           typed_.kept().front(),
-                           count,
-                           count == 1 ? "line is" : "lines are")};
+    answer_.begin(drivers::CommandAnswer::State::done,
+                  fmt::format("{}: {} {} kept until CLOSE",
+                              typed_.kept().front(),
+                              count,
+                              count == 1 ? "line is" : "lines are"));
     tell(false, drivers::ConsoleKind::message, lines.back() + ": not yet sent; " + answer_.text);
 }
 
@@ -311,7 +309,7 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
         throw Error(
             "a file cannot be loaded while a buffer is open", {}, second_open_hint(typed_.kept().front()));
     }
-    const bool may_wait = !all && answer_.state != drivers::CommandAnswer::State::pending;
+    const bool may_wait = !all && !answer_.pending();
     const std::size_t now = may_wait ? typed_.count_to_send(parts) : parts.size();
     if (now == 0) {
         keep_until_close(parts);
@@ -330,7 +328,7 @@ int PmacSession::command(const std::vector<std::string>& given, bool all) {
     if (power_.plcs_run && are_all(lines, only_kills)) {
         lines.insert(lines.begin(), disable_plcs); // else they would give the power back
     }
-    const bool waits = answer_.state == drivers::CommandAnswer::State::pending;
+    const bool waits = answer_.pending();
     const bool asks = are_all(lines, asks_or_disables_plcs);
     if (!asks && rests()) {
         give_jog_speeds_back();
@@ -376,7 +374,7 @@ void PmacSession::skip_buffer() {
 }
 
 void PmacSession::begin_command(const std::vector<std::string>& lines, bool all) {
-    answer_ = {answer_.number + 1, drivers::CommandAnswer::State::pending, {}};
+    answer_.begin();
     command_.goes_on = all;
     command_.refused = false;
     command_.lines.assign(lines.begin(), lines.end());

@@ -82,7 +82,7 @@ void PmacSession::start(const std::vector<std::string>& lines, double /*now*/) {
         check_guard(line);
         check_stays_in_buffer(line);
     }
-    answer_ = {answer_.number, drivers::CommandAnswer::State::none, {}}; // of a line before it
+    answer_.forget();
     finish(Stage::loading);
     run_.lines = static_cast<int>(lines.size());
     run_.executed = 0;

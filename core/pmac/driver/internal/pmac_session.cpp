@@ -83,7 +83,7 @@ void PmacSession::closed() {
 
 std::string PmacSession::take_output() {
     output_ += talk_.take_output();
-    return std::exchange(output_, {});
+    return ControllerSession::take_output();
 }
 
 std::vector<drivers::ConsoleLine> PmacSession::take_console() {
@@ -329,7 +329,7 @@ void PmacSession::answered(const Request& request, const std::vector<std::string
         break;
     case Kind::command:
         for (const std::string& line : lines) {
-            answer_.text += (answer_.text.empty() ? "" : "\n") + line;
+            answer_.add_line(line);
         }
         if (exchange_.buffer_open) {
             next_command();
@@ -366,7 +366,7 @@ void PmacSession::refused_command(const Request& request, bool loop_is_open, con
                           command_.goes_on ? "without" : "only up to")
             : "";
     if (command_.goes_on) {
-        answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
+        answer_.add_line(why + lacks);
         command_.refused = true;
         if (opens) {
             skip_buffer();
@@ -382,7 +382,7 @@ void PmacSession::refused_command(const Request& request, bool loop_is_open, con
         ask_whose_loop_is_open(why);
         return;
     }
-    answer_.text += (answer_.text.empty() ? "" : "\n") + why + lacks;
+    answer_.add_line(why + lacks);
     if (exchange_.buffer_open) {
         ask("CLOSE");
     }
@@ -479,9 +479,7 @@ bool PmacSession::is_step(const std::string& line) const {
 }
 
 void PmacSession::finish_command(drivers::CommandAnswer::State state) {
-    if (answer_.state == drivers::CommandAnswer::State::pending) {
-        answer_.state = state;
-    }
+    answer_.end(state);
     for (MotorState& motor : motors_) {
         motor.lag_is_old = motor.lag_is_old && !motor.gets_power; // what it tells from here on is of this
         motor.gets_power = false;

@@ -313,7 +313,6 @@ private:
     PmacSettings settings_;
     GuardedLine talk_;
     Stage stage_ = Stage::closed;
-    std::string output_;
     std::vector<drivers::ConsoleLine> told_;
     std::string message_;
     Link link_ = Link::silent;

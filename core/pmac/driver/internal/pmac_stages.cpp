@@ -212,9 +212,8 @@ void PmacSession::finish(Stage stage, std::string why) {
         motor.was_given_power =
             motor.was_given_power && (stage == Stage::moving_by_command || stage == Stage::commanding);
     }
-    if (given_up && answer_.state == drivers::CommandAnswer::State::pending && stage != Stage::commanding) {
-        answer_.state = drivers::CommandAnswer::State::refused;
-        answer_.text = message_.empty() ? "stopped" : message_;
+    if (given_up && stage != Stage::commanding) {
+        answer_.break_off(message_);
     }
 }
 

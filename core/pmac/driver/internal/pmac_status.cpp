@@ -146,7 +146,7 @@ void PmacSession::explain_open_loop(const std::string& sentence) {
         finish(Stage::ready, sentence);
         return;
     }
-    answer_.text += (answer_.text.empty() ? "" : "\n") + sentence;
+    answer_.add_line(sentence);
     finish_command(drivers::CommandAnswer::State::refused);
 }
 

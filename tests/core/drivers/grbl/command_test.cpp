@@ -83,10 +83,10 @@ TEST(GrblCommand, TellsWhatIsInForce) {
     EXPECT_EQ(status.work_system, 3);
     EXPECT_EQ(status.spindle, SpindleTurning::counterclockwise);
     EXPECT_EQ(status.spindle_rpm, 800.0);
-    EXPECT_TRUE(status.mist && status.flood);
+    EXPECT_TRUE(status.coolant.mist && status.coolant.flood);
     const DriverStatus off = execute(wire, stop_spindle() + "\n" + set_coolant(false, false));
     EXPECT_EQ(off.spindle, SpindleTurning::stopped);
-    EXPECT_FALSE(off.mist || off.flood);
+    EXPECT_FALSE(off.coolant.mist || off.coolant.flood);
 }
 
 TEST(GrblCommand, SetsTheWorkPosition) {

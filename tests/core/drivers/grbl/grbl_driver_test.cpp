@@ -259,7 +259,7 @@ TEST(GrblDriver, ReadsSettingsAndPosition) {
     EXPECT_EQ(readout.version, "1.1h");
     EXPECT_EQ(readout.settings.at(110), 3000.0);
     EXPECT_EQ(bench.driver->status().position.size(), 3);
-    EXPECT_TRUE(bench.driver->capabilities().jog);
+    EXPECT_TRUE(bench.driver->capabilities().manual.jog);
 }
 
 TEST(GrblDriver, GoesIntoAlarmWhenTheLinkBreaksAndComesBackOnlyWhenAsked) {

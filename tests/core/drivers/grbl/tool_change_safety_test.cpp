@@ -279,7 +279,7 @@ TEST(GrblToolSafety, SpindleAndCoolantOfThePersonAreOffBeforeAnythingMoves) {
     wire.run_until([&] { return !wire.session.status().tool_change; }, 120.0);
     EXPECT_THAT(wire.sent_lines(), testing::StartsWith("M5\nM9\nG21G90G94\nG53G0Z"));
     wire.run_until([] { return false; }, 0.5);
-    EXPECT_FALSE(wire.session.status().flood);
+    EXPECT_FALSE(wire.session.status().coolant.flood);
     EXPECT_EQ(wire.session.status().spindle, gcode::SpindleTurning::stopped);
 }
 

@@ -19,7 +19,9 @@ public:
         drivers::Capabilities able;
         able.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
         able.dialect = checks_ ? std::optional(gcode::Dialect::grbl) : std::nullopt;
-        able.plans = able.overrides = able.single_block = able.piecewise = true;
+        able.takes = drivers::Capabilities::Takes::text;
+        able.overrides = drivers::Capabilities::OverrideRange::feed;
+        able.program.single_block = able.program.piecewise = true;
         return able;
     }
     void connect() override {}

@@ -58,7 +58,8 @@ public:
         using kinematics::AxisKind;
         drivers::Capabilities able;
         able.axes = {{'X', AxisKind::linear}, {'Y', AxisKind::linear}, {'Z', AxisKind::linear}};
-        able.plans = able.overrides = true;
+        able.takes = drivers::Capabilities::Takes::text;
+        able.overrides = drivers::Capabilities::OverrideRange::feed;
         return able;
     }
     void connect() override {}

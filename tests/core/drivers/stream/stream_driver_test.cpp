@@ -205,7 +205,7 @@ TEST(StreamDriver, BeginsWhereAPersonSaysThatTheMachineStands) {
     StreamDriverBench bench;
     const auto driver = bench.driver({.paced = false, .known = false});
     driver->connect();
-    EXPECT_TRUE(driver->capabilities().told_place);
+    EXPECT_FALSE(driver->capabilities().reports.position);
     EXPECT_FALSE(driver->status().position_known);
     const AxisPositions there = Vec3(3.0, 4.0, 5.0);
     driver->stands_at(there);

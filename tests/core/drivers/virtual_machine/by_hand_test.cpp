@@ -240,10 +240,10 @@ TEST(VirtualCommand, SwitchesSpindleAndCoolant) {
     (void)bench.execute(start_spindle(900.0, false) + "\n" + set_coolant(false, true));
     EXPECT_EQ(bench.axes.status().spindle, SpindleTurning::counterclockwise);
     EXPECT_EQ(bench.axes.status().spindle_rpm, 900.0);
-    EXPECT_TRUE(bench.axes.status().flood);
+    EXPECT_TRUE(bench.axes.status().coolant.flood);
     (void)bench.execute(stop_spindle() + "\n" + set_coolant(false, false));
     EXPECT_EQ(bench.axes.status().spindle, SpindleTurning::stopped);
-    EXPECT_FALSE(bench.axes.status().flood);
+    EXPECT_FALSE(bench.axes.status().coolant.flood);
 }
 
 TEST(VirtualCommand, CanBeStopped) {
@@ -280,7 +280,7 @@ TEST(VirtualMachineByHand, RefusesWhatItCannotDoWithoutAModel) {
     test::ManualClock clock;
     VirtualMachine machine(AxisPositions::Zero(3), {}, clock);
     machine.connect();
-    EXPECT_FALSE(machine.capabilities().jog);
+    EXPECT_FALSE(machine.capabilities().manual.jog);
     EXPECT_THROW(machine.jog({AxisPositions::Ones(3), 1.0, 0.0}), Error);
     EXPECT_THROW((void)machine.command("G0 X1"), Error);
     EXPECT_THROW(machine.home(), Error);

@@ -85,7 +85,7 @@ std::string modes_text(const gcode::ModalState& state) {
                        53 + state.coordinate_system,
                        17 + static_cast<int>(state.plane),
                        state.unit == gcode::LengthUnit::mm ? 21 : 20,
-                       state.incremental ? 91 : 90,
+                       state.distance == gcode::DistanceMode::incremental ? 91 : 90,
                        state.feed_mode == gcode::FeedMode::inverse_time ? 93 : 94,
                        state.spindle == SpindleTurning::stopped     ? 5
                        : state.spindle == SpindleTurning::clockwise ? 3
