@@ -332,8 +332,8 @@ void stock_outcome(Ui& ui,
     if (now.view_state.stock.shown) {
         section_fields(ui, now, ask);
     }
-    const viewport::Layers& layers = now.view_state.layers_now();
-    if (now.view_state.stock.shown && (layers.error_surface || layers.scallops || layers.weight) &&
+    const viewport::ColoredLayers& colored = now.view_state.layers_now().colored;
+    if (now.view_state.stock.shown && (colored.errors || colored.scallops || colored.weight) &&
         !now.in_file()) {
         ui.note("The stock hides the colours on the surface. Switch it off to see them.");
     }
