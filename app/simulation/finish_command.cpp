@@ -119,7 +119,7 @@ void add_pass_options(CLI::App& command, FinishOptions& options) {
     command.add_option("--overrun", options.overrun, "Distance the passes go beyond the mesh, mm")
         ->check(not_below_zero())
         ->capture_default_str();
-    command.add_flag("--parallel-only", options.parallel_only, "No passes across the others on steep places");
+    command.add_flag("--one-way", options.one_way, "No passes across the others on steep places");
     command
         .add_option(
             "--allowance",

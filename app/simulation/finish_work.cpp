@@ -123,7 +123,7 @@ mesh_finish::FinishSettings settings_of(const FinishOptions& options, const tool
             .step_over = step_of(options, tool.shape()),
             .tolerance = options.tolerance,
             .overrun = options.overrun,
-            .across = !options.parallel_only,
+            .across = !options.one_way,
             .link_clearance = options.link_clearance,
             .allowance = options.allowance};
 }

@@ -32,7 +32,7 @@ struct FinishOptions {
     double scallop = 0.01;
     double tolerance = 0.005;
     double overrun = 0.0;
-    bool parallel_only = false; ///< no passes across
+    bool one_way = false; ///< no passes across
     double link_clearance = 2.0;
     std::optional<double> allowance; ///< nullopt: not known
     double feed_mm_per_min = 1200.0;

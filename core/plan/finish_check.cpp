@@ -107,10 +107,7 @@ FinishCheck check_finish(const FinishCheckInput& input, const Progress& progress
     });
     check.fitting.assign(fitting.begin(), fitting.end());
     const simulation::BoxStock stock = stock_around(input.part);
-    // Cells only say which moves come near a point, so that cells much smaller than the cutter are of no use.
-    constexpr double cell_of_radius = 0.2;
-    check.resolution = std::max(simulation::usual_resolution(Box3(stock.low, stock.high), input.most_bytes),
-                                cell_of_radius * input.cutter.shape().radius);
+    check.resolution = simulation::usual_resolution(Box3(stock.low, stock.high), input.most_bytes);
     const simulation::SimulationInput cutting{
         .program = input.program,
         .machine = input.machine,
