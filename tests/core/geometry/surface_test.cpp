@@ -35,7 +35,7 @@ TEST(Surface, EditingOnePatchLeavesTheOriginalAndTheOthers) {
 }
 
 TEST(Surface, NeedsAPatch) {
-    EXPECT_THROW(Surface({}), Error);
+    EXPECT_THROW(Surface(std::vector<BezierPatch>{}), Error);
 }
 
 } // namespace
