@@ -4,8 +4,8 @@
 #include "core/base/units.h"
 #include "core/kinematics/forward.h"
 #include "core/kinematics/inverse.h"
-#include "core/program/retract.h"
 #include "core/program/number_format.h"
+#include "core/program/retract.h"
 
 #include <fmt/format.h>
 

@@ -44,7 +44,8 @@ std::vector<std::string> memory_sentences(const project::Project& project, const
         return sentences;
     }
     for (const GridMethod method : project::every_grid_method) {
-        const bool made = method == program_grid(project) || (scope.compared.grids && row_of(method).compared);
+        const bool made =
+            method == program_grid(project) || (scope.compared.grids && row_of(method).compared);
         const std::string sentence = !made || is_comparison_skipped(project, method)
                                          ? std::string()
                                          : memory_sentence(method, project.grid);

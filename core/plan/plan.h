@@ -77,7 +77,7 @@ struct Scope {
         friend bool operator==(const Compared&, const Compared&) = default;
     };
 
-    Compared compared;
+    Compared compared{};
     bool times = false;  ///< of the grids that are there
     bool weight = false; ///< of the elliptic functional
     bool cut = false;    ///< what the cutter does on the program's path

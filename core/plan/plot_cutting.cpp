@@ -2,13 +2,13 @@
 
 #include "core/base/error.h"
 #include "core/plan/internal/plot_view.h"
+#include "core/plot/cut_path.h"
 #include "core/plot/linking.h"
 #include "core/plot/ordering.h"
 #include "core/plot/picture/engraving.h"
 #include "core/plot/picture/relief_plan.h"
 #include "core/plot/picture/trace.h"
 #include "core/plot/point_file.h"
-#include "core/plot/cut_path.h"
 #include "core/plot/stroke_plan.h"
 
 #include <fmt/format.h>

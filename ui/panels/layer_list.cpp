@@ -1,9 +1,9 @@
 #include "ui/panels/layer_list.h"
 
 #include "ui/actions/layer_actions.h"
-#include "ui/workspaces/stock_workspace.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/menus.h"
+#include "ui/workspaces/stock_workspace.h"
 
 #include <string>
 

@@ -20,7 +20,11 @@ constexpr std::size_t bytes_per_frame = std::size_t{2} << 20U; // to count in: 2
 constexpr std::size_t most_shown = 2000;                       // characters of a line
 
 std::string shown_part(std::string_view line) {
-    return line.size() <= most_shown ? std::string(line) : std::string(line.substr(0, most_shown)) + "\u2026";
+    std::string shown(line.substr(0, most_shown));
+    if (line.size() > most_shown) {
+        shown += "\u2026";
+    }
+    return shown;
 }
 
 } // namespace

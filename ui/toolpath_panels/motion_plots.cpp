@@ -1,8 +1,8 @@
 #include "ui/toolpath_panels/motion_plots.h"
 
 #include "ui/panels/lines.h"
-#include "ui/workspaces/stock_workspace.h"
 #include "ui/widgets/plot.h"
+#include "ui/workspaces/stock_workspace.h"
 
 #include <array>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // Plots of the motion over time: feed with what limits it, velocities of the axes, what a simulation cuts.
 #pragma once
 
+#include "ui/panels/panel.h"
 #include "ui/toolpath_panels/engagement_series.h"
 #include "ui/toolpath_panels/motion_series.h"
-#include "ui/panels/panel.h"
 
 #include <memory>
 

@@ -9,11 +9,11 @@
 #include "core/simulation/spec_text.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
-#include "ui/toolpath_panels/simulation_notices.h"
-#include "ui/workspaces/stock_workspace.h"
 #include "ui/toolpath_panels/deviation_histogram.h"
 #include "ui/toolpath_panels/section_fields.h"
+#include "ui/toolpath_panels/simulation_notices.h"
 #include "ui/widgets/notices.h"
+#include "ui/workspaces/stock_workspace.h"
 
 #include <fmt/format.h>
 

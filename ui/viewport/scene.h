@@ -99,12 +99,12 @@ struct ArmLayers {
 
 /// What of the results is to be seen.
 struct Layers {
-    DesignLayers design;
-    ColoredLayers colored;
-    GridLayers grid;
-    PathLayers path;
-    MachineLayers machine;
-    ArmLayers arm;
+    DesignLayers design{};
+    ColoredLayers colored{};
+    GridLayers grid{};
+    PathLayers path{};
+    MachineLayers machine{};
+    ArmLayers arm{};
     bool floor = true;  ///< a ground grid below everything
     bool origin = true; ///< axes at the workpiece's origin
 

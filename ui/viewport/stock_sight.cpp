@@ -14,7 +14,7 @@ namespace millwright::viewport {
 
 namespace {
 
-constexpr glm::vec3 gouge{0.84F, 0.19F, 0.16F}, within{0.38F, 0.68F, 0.36F};
+constexpr glm::vec3 gouged{0.84F, 0.19F, 0.16F}, within{0.38F, 0.68F, 0.36F};
 constexpr glm::vec3 little_excess{0.62F, 0.77F, 0.94F}, much_excess{0.16F, 0.38F, 0.78F};
 constexpr glm::vec3 uncut{0.59F, 0.61F, 0.65F}, cut_beside{0.76F, 0.66F, 0.50F};
 constexpr glm::vec3 in_section{0.42F, 0.36F, 0.33F};
@@ -29,7 +29,7 @@ double stock_range(double tolerance) {
 
 glm::vec3 stock_color(double height, double tolerance) {
     if (height < -tolerance) {
-        return gouge;
+        return gouged;
     }
     if (height <= tolerance) {
         return within;

@@ -17,7 +17,7 @@ namespace {
 
 using widgets::Rank;
 
-constexpr float width = 500.0F;
+constexpr float dialog_width = 500.0F;
 constexpr float wide = 600.0F; ///< three buttons, one with a long label
 
 std::string where(const std::filesystem::path& file) {
@@ -71,8 +71,9 @@ void Dialogs::draw(Ui& ui, const FrameState& now, ActionQueue& ask) {
 void Dialogs::draw_replacing(Ui& ui, const FrameState& now, ActionQueue& ask) const {
     const actions::Replacing& asked = *now.view_state.replacing;
     const bool project = asked.what == actions::ReplacedFile::project;
-    const auto dialog = ui.dialog(
-        "replace", project ? "File changed on disk" : "Replace the file?", ui.px(project ? wide : width));
+    const auto dialog = ui.dialog("replace",
+                                  project ? "File changed on disk" : "Replace the file?",
+                                  ui.px(project ? wide : dialog_width));
     if (!dialog) {
         return;
     }
@@ -113,7 +114,7 @@ void Dialogs::draw_gouges(Ui& ui, const FrameState& now, ActionQueue& ask) const
 }
 
 void Dialogs::draw_unsaved(Ui& ui, const FrameState& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("unsaved", "Save the changes?", ui.px(width));
+    const auto dialog = ui.dialog("unsaved", "Save the changes?", ui.px(dialog_width));
     if (!dialog) {
         return;
     }
@@ -138,7 +139,7 @@ void Dialogs::draw_running_job(Ui& ui, const FrameState& now, ActionQueue& ask) 
                                   job     ? "Stop the job?"
                                   : moves ? "Stop the arm?"
                                           : "Disable the motors and quit?",
-                                  ui.px(width));
+                                  ui.px(dialog_width));
     if (!dialog) {
         return;
     }
@@ -169,7 +170,7 @@ void Dialogs::draw_running_job(Ui& ui, const FrameState& now, ActionQueue& ask) 
 }
 
 void Dialogs::draw_left_behind(Ui& ui, const FrameState& now, ActionQueue& ask) const {
-    const auto dialog = ui.dialog("recovery", "Unsaved work found", ui.px(width));
+    const auto dialog = ui.dialog("recovery", "Unsaved work found", ui.px(dialog_width));
     if (!dialog) {
         return;
     }

@@ -1,12 +1,12 @@
 #include "ui/workspaces/stock_workspace.h"
 
 #include "core/base/error.h"
-#include "core/simulation/spec_text.h"
-#include "ui/workspaces/frame_state.h"
-#include "ui/workspaces/view_state.h"
 #include "core/base/files.h"
 #include "core/plan/part_stock.h"
+#include "core/simulation/spec_text.h"
+#include "ui/workspaces/frame_state.h"
 #include "ui/workspaces/stock_file.h"
+#include "ui/workspaces/view_state.h"
 
 #include <algorithm>
 #include <iterator>

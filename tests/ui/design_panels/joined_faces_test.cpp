@@ -3,8 +3,8 @@
 #include "core/exchange/cad_file.h"
 #include "tests/support/faces.h"
 #include "tests/ui/person/person.h"
-#include "ui/workspaces/pending_import.h"
 #include "ui/window/view_panel.h"
+#include "ui/workspaces/pending_import.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

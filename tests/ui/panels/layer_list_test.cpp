@@ -82,7 +82,7 @@ TEST(LayerList, TheWeightIsShownFromTheGridPanelAndFollowsTheFormula) {
     EXPECT_FALSE(person.sees("view/weight_legend"));
     person.click("inspector/tracks"); // folded away, so that all of the next section is in sight
     person.click("inspector/elliptic/show_weight");
-    EXPECT_TRUE(shown_layers(person).weight);
+    EXPECT_TRUE(shown_layers(person).colored.weight);
     EXPECT_TRUE(person.sees("view/weight_legend"));
     const render::Picture of_error = person.picture_of("view/iso");
     person.keep("weight-of-the-error");
@@ -112,11 +112,11 @@ TEST(LayerList, IsInTheViewMenuToo) {
 
 TEST(LayerList, IsFoundInThePaletteByTheNameOfALayer) {
     Person person;
-    const bool before = shown_layers(person).singular_points;
+    const bool before = shown_layers(person).machine.singular_points;
     person.press_key(render::Key::k, true);
     person.type("singular");
     person.press_key(render::Key::enter);
-    EXPECT_NE(shown_layers(person).singular_points, before);
+    EXPECT_NE(shown_layers(person).machine.singular_points, before);
 }
 
 TEST(LayerList, CutsNoTextAndFitsTheSmallWindow) {

@@ -1,11 +1,11 @@
 // The simulation of material removal in the window, driven by real mouse and keys, drawn in real OpenGL.
-#include "tests/ui/person/person.h"
-#include "ui/toolpath_panels/simulation_notices.h"
-#include "ui/workspaces/stock_workspace.h"
 #include "core/base/error.h"
 #include "core/base/files.h"
 #include "core/geometry/glb.h"
 #include "core/project/project_file.h"
+#include "tests/ui/person/person.h"
+#include "ui/toolpath_panels/simulation_notices.h"
+#include "ui/workspaces/stock_workspace.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
