@@ -176,7 +176,7 @@ namespace {
 
 constexpr std::size_t stl_head_size = 84; // 80 bytes of text and the count
 constexpr std::size_t facet_size = 50;    // normal, three corners, two bytes more
-constexpr std::uint32_t between_checks = 10'000;
+constexpr std::uint32_t facets_between_checks = 10'000;
 
 char small_letter(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -216,7 +216,7 @@ void read_binary(std::string_view bytes, PolygonSoup& soup, const Progress& prog
         soup.note(left_over_text(count, bytes.size() - wanted));
     }
     for (std::uint32_t n = 0; n < count; ++n) {
-        if (n % between_checks == 0) {
+        if (n % facets_between_checks == 0) {
             progress.check();
         }
         const int first = static_cast<int>(soup.point_count());
@@ -246,7 +246,7 @@ void read_text(std::string_view bytes, PolygonSoup& soup, const Progress& progre
     WordLines lines(bytes);
     int corners = -1; // outside of a loop
     while (const auto* words = lines.next()) {
-        if (static_cast<std::uint32_t>(lines.number()) % between_checks == 0) {
+        if (static_cast<std::uint32_t>(lines.number()) % facets_between_checks == 0) {
             progress.check();
         }
         if (words->empty()) {
