@@ -57,8 +57,6 @@ std::string how_it_goes_on(const JobStory& story) {
                : with_full_stop("It can only restart from the beginning: " + way.why_the_beginning);
 }
 
-} // namespace
-
 /// What the queue says; with its log in `folder`, if there is one, also what that reports but is not in the
 /// queue if this program was killed: what was executed, and where the job can go on.
 std::string queued_job_status(const QueuedJob& job, const std::filesystem::path& folder) {
@@ -72,8 +70,6 @@ std::string queued_job_status(const QueuedJob& job, const std::filesystem::path&
                        logged->log_file.string(),
                        how_it_goes_on(*logged));
 }
-
-namespace {
 
 using jobs::JobEnd;
 using jobs::JobQueue;

@@ -434,7 +434,8 @@ void add_import_command(CLI::App& app, Command& chosen) {
         .add_option(
             "--faces",
             options->faces,
-            "Numbers of faces that continue one another, separated by commas: machined as one surface")
+            "Numbers of faces that continue one another, separated by commas: machined as one surface, with "
+            "--exact")
         ->delimiter(',')
         ->check(CLI::Range(1, exchange::most_cad_faces))
         ->type_name("N,N,...")

@@ -28,7 +28,7 @@ struct JobReport {
 
 // How a job ended, for people.
 
-/// "6 of 37 blocks were executed for certain", or "were sent" if the machine does not answer.
+/// "6 of 37 blocks were confirmed as executed", or "were sent" if the machine does not answer.
 [[nodiscard]] std::string done_text(int executed_blocks, int blocks, bool answers);
 
 /// "all 37 blocks were", or "the only block was".

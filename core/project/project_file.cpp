@@ -154,13 +154,22 @@ fs::path from_folder(const fs::path& file, const fs::path& folder) {
     return file.empty() ? file : (folder / file).lexically_normal();
 }
 
-/// What lies in the folder or below it is called from there, so that both can move together.
+/// From a folder that may be empty, which is the current one.
+fs::path absolute(const fs::path& path) {
+    return (fs::current_path() / path).lexically_normal();
+}
+
+/// What lies in the folder or below it is called from there, so that both can move together; so is what was
+/// called from the current folder, which the reader of the file does not know.
 fs::path to_folder(const fs::path& file, const fs::path& folder) {
     if (file.empty()) { // which would be "." in the current folder
         return file;
     }
     const fs::path from_there = file.lexically_relative(folder);
-    return from_there.empty() || *from_there.begin() == ".." ? file : from_there;
+    if (!from_there.empty() && *from_there.begin() != "..") {
+        return from_there;
+    }
+    return file.is_absolute() ? file : absolute(file).lexically_relative(absolute(folder));
 }
 
 Project project(const JsonValue& root, const fs::path& folder) {

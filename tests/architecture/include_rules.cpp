@@ -49,8 +49,8 @@ constexpr std::array core_order = {
     Rank{"mesh_finish", 5},
 };
 
-// Panels of one workspace know nothing of those of another; what several need lies in ui/panels. The arm's
-// are moved by hand as a machine is.
+// Panels of one workspace know nothing of those of another; what several need lies in ui/panels,
+// and of the simulation in ui/simulation_panels. The arm's are moved by hand as a machine is.
 constexpr std::array ui_order = {
     Rank{"render", 0},
     Rank{"widgets", 0},
@@ -58,13 +58,14 @@ constexpr std::array ui_order = {
     Rank{"workspaces", 2},
     Rank{"actions", 3},
     Rank{"panels", 4},
-    Rank{"design_panels", 5},
-    Rank{"machine_panels", 5},
-    Rank{"plot_panels", 5},
-    Rank{"processor_panels", 5},
-    Rank{"toolpath_panels", 5},
-    Rank{"arm_panels", 6},
-    Rank{"window", 7},
+    Rank{"simulation_panels", 5},
+    Rank{"design_panels", 6},
+    Rank{"machine_panels", 6},
+    Rank{"plot_panels", 6},
+    Rank{"processor_panels", 6},
+    Rank{"toolpath_panels", 6},
+    Rank{"arm_panels", 7},
+    Rank{"window", 8},
 };
 
 // What lies in app itself, main and the window, may include all of them, and none of them it.

@@ -270,8 +270,8 @@ bool AppController::advance(double seconds) {
     follow_plot();
     follow_import();
     follow_file();
+    follow_begin(look());          // drops an approach to what is no longer wished
     const FrameState now = look(); // one for all that follows
-    follow_begin(now);
     follow_run(now);
     follow_queue(now);
     follow_next(now);

@@ -6,7 +6,7 @@
 #include "ui/panels/fields.h"
 #include "ui/plot_panels/level_fields.h"
 #include "ui/plot_panels/plot_fields.h"
-#include "ui/toolpath_panels/simulation_fields.h"
+#include "ui/simulation_panels/simulation_fields.h"
 #include "ui/viewport/pen_colors.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/notices.h"

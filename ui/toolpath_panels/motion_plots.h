@@ -2,7 +2,7 @@
 #pragma once
 
 #include "ui/panels/panel.h"
-#include "ui/toolpath_panels/engagement_series.h"
+#include "ui/simulation_panels/engagement_series.h"
 #include "ui/toolpath_panels/motion_series.h"
 
 #include <memory>

@@ -7,8 +7,8 @@
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/lines.h"
+#include "ui/simulation_panels/simulation_fields.h"
 #include "ui/toolpath_panels/modal_text.h"
-#include "ui/toolpath_panels/simulation_fields.h"
 #include "ui/widgets/table.h"
 
 #include <fmt/format.h>

@@ -5,7 +5,7 @@
 #include "ui/panels/axis_positions.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
-#include "ui/toolpath_panels/simulation_fields.h"
+#include "ui/simulation_panels/simulation_fields.h"
 #include "ui/workspaces/shown_grid.h"
 
 #include <fmt/format.h>

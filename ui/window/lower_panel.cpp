@@ -4,7 +4,7 @@
 #include "ui/arm_panels/arm_drives.h"
 #include "ui/arm_panels/arm_motors.h"
 #include "ui/design_panels/error_table.h"
-#include "ui/toolpath_panels/collision_table.h"
+#include "ui/simulation_panels/collision_table.h"
 #include "ui/toolpath_panels/gouge_table.h"
 #include "ui/widgets/icons.h"
 #include "ui/widgets/plot.h"

@@ -49,7 +49,7 @@ struct FrameState {
     /// arm that of the plot where no file is open. Null while there is none.
     std::shared_ptr<const plan::OpenedProgram> opened;
     JobView job;
-    std::shared_ptr<const Approach> approach; ///< of ViewState::begin; null while it is not worked out
+    std::shared_ptr<const Approach> approach; ///< of ViewState::start_at; null while it is not worked out
     ConnectionView connection;
     std::shared_ptr<drivers::Console> console; ///< of the connected machine; null without one
     std::string undo_title, redo_title;        ///< empty if there is nothing

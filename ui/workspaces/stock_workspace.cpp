@@ -20,14 +20,19 @@ bool is_other_stock(const plan::StockResult* seen, const plan::StockResult& now)
     return !seen || seen->job.surface != now.job.surface || seen->stock_text != now.stock_text;
 }
 
-std::shared_ptr<const program::Program> program_of(const plan::OpenedProgram* opened) {
-    return opened != nullptr && opened->motion ? opened->motion->program : nullptr;
+bool is_program_of(const std::shared_ptr<const plan::OpenedProgram>& opened,
+                   const std::shared_ptr<const program::Program>& program) {
+    return opened && opened->motion && opened->motion->program == program;
 }
 
-/// Of the project, of the opened file, or what is looked at.
+bool is_file_of(const std::shared_ptr<const plan::OpenedProgram>& opened, const std::filesystem::path& file) {
+    return opened && opened->file == file;
+}
+
+/// Of the project, of the opened file, or of the plot, whichever is looked at.
 bool is_there(const FrameState& now, const std::shared_ptr<const program::Program>& program) {
-    return (now.plan && now.plan->plan.program == program) || program_of(now.opened_file.get()) == program ||
-           program_of(now.opened.get()) == program;
+    return (now.plan && now.plan->plan.program == program) || is_program_of(now.opened_file, program) ||
+           is_program_of(now.opened, program) || is_program_of(now.plot.opened(), program);
 }
 
 /// What is of a program that is gone can never be shown again.
@@ -44,11 +49,20 @@ void follow_program(plan::StockWorker& worker, const FrameState& now, ViewState&
     }
 }
 
-/// Another file begins with the box around its path, and without tools.
-void follow_file(const FrameState& now, FileStock& chosen) {
-    if (now.in_file() && now.opened->motion && chosen.file != now.opened->file) {
-        chosen = {now.opened->file, plan::suggested_stock(*now.opened), {}};
+/// A file that is new begins with the box around its path, and without tools.
+void follow_file(const FrameState& now, StockChoice& choice) {
+    if (!now.in_file() || !now.opened->motion || choice.file.file == now.opened->file) {
+        return;
     }
+    std::vector<FileStock>& aside = choice.set_aside;
+    aside.push_back(std::move(choice.file));
+    const auto found = std::ranges::find(aside, now.opened->file, &FileStock::file);
+    choice.file =
+        found != aside.end() ? *found : FileStock{now.opened->file, plan::suggested_stock(*now.opened), {}};
+    std::erase_if(aside, [&](const FileStock& one) {
+        return one.file == now.opened->file ||
+               !(is_file_of(now.opened_file, one.file) || is_file_of(now.plot.opened(), one.file));
+    });
 }
 
 } // namespace
@@ -120,7 +134,7 @@ void StockWorkspace::follow_comparison(double tolerance) {
 
 void StockWorkspace::follow(const FrameState& now, ViewState& view_state) {
     follow_program(worker_, now, view_state);
-    follow_file(now, view_state.stock.file);
+    follow_file(now, view_state.stock);
     const auto before = view_.result;
     view_ = worker_.view();
     if (view_.result != before) {
@@ -174,8 +188,9 @@ int executed_blocks(const FrameState& now) {
     if (!program) {
         return 0;
     }
-    if (now.follows_job() && now.job.from_line <= 1 && now.job.listing &&
-        std::ssize(now.job.listing->line_of_block) == program->block_count()) {
+    const auto listing = now.in_file() ? now.opened->motion->listing : now.listing();
+    if (now.follows_job() && now.job.from_line <= 1 && now.job.listing && listing &&
+        now.job.listing->text == listing->text) {
         return std::clamp(now.job.report->driver.executed_blocks, 0, program->block_count());
     }
     return now.time() < now.duration() ? std::max(now.block(), 0) : program->block_count();

@@ -10,6 +10,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace millwright::actions {
 
@@ -27,6 +29,8 @@ struct FileStock {
 struct StockChoice {
     plan::StockSettings settings; ///< but for stock and allowance, which are the project's, or the file's
     FileStock file;
+    std::vector<FileStock>
+        set_aside;     ///< of what else is open: the file while a plot is shown, or the other way round
     bool shown = true; ///< what is left, in place of the surface
     viewport::StockSection section;
     bool sectioned = false; ///< what lies beyond `section` is taken away
@@ -86,7 +90,7 @@ private:
 /// The result is of the program that is shown: neither the project nor the tool has changed since.
 [[nodiscard]] bool stock_is_current(const FrameState& now);
 /// Blocks that have been executed where the timeline is; while it follows a whole job, those that the machine
-/// has executed for certain.
+/// has executed, or was sent where it does not answer.
 [[nodiscard]] int executed_blocks(const FrameState& now);
 /// From there on the timeline goes, unless it follows a job.
 void go_to_block(const FrameState& now, ViewState& view_state, int block, double fraction);

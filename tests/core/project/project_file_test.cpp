@@ -252,6 +252,16 @@ TEST(ProjectFile, TheMeshOfAStockIsNamedFromTheFolderOfTheProject) {
                 HasSubstr((scratch / "meshes/block.stl").string()));
 }
 
+TEST(ProjectFile, AMeshNamedFromTheCurrentFolderIsFoundFromAnotherOne) {
+    const test::ScratchFolder scratch;
+    fs::create_directories(scratch / "elsewhere");
+    Project project = project_from_preset("dome");
+    project.stock = {false, 2.0, "box:9,9,9", fs::path("meshes") / "block.stl", Vec3::Zero()};
+    write_project(project, scratch / "elsewhere/part.json");
+    const fs::path found = read_project(scratch / "elsewhere/part.json").stock.file;
+    EXPECT_EQ(found, (fs::current_path() / "meshes/block.stl").lexically_normal());
+}
+
 TEST(ProjectFile, AFaultyStockIsRefusedAtItsPlace) {
     Project project = project_from_preset("dome");
     project.stock = {false, 3.25, "box:100,100,20@-50,-50,-20", "block.stl", Vec3::Zero()};

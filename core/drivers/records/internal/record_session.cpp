@@ -93,15 +93,11 @@ void RecordSession::closed() {
     status_.message.clear();
     under_way_.reset();
     program_.reset();
-    outbox_.clear();
+    output_.clear();
 }
 
 double RecordSession::patience(double now) const {
     return listens(now) ? listens_until_ - now : ControllerSession::patience(now);
-}
-
-std::string RecordSession::take_output() {
-    return std::exchange(outbox_, {});
 }
 
 void RecordSession::rest(DriverState state, std::string why) {
@@ -121,7 +117,7 @@ void RecordSession::alarm(std::string why) {
         left_until_ = under_way_->over + (awaits_answers() ? format_.patience : 0.0);
     }
     under_way_.reset();
-    outbox_.clear();
+    output_.clear();
     rest(DriverState::alarm, std::move(why));
 }
 
@@ -308,7 +304,7 @@ void RecordSession::send(const Block& block, double now) {
         speed = std::min(fastest, length / block.duration * percent * status_.overrides.feed);
     }
     const double acceleration = along(*model_, way, &MachineAxis::max_acceleration);
-    outbox_ += sender_.to(target, speed, acceleration);
+    output_ += sender_.to(target, speed, acceleration);
     ++records_;
     status_.feed = speed;
     under_way_ = UnderWay{target, now + time_of(length, speed, acceleration), true, now, length / speed};

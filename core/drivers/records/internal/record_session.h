@@ -36,7 +36,6 @@ public:
     void receive(std::string_view bytes, double now) override;
     void tick(double now) override;
     [[nodiscard]] double patience(double now) const override;
-    [[nodiscard]] std::string take_output() override;
     [[nodiscard]] internal::SendWindow* send_window() override { return &send_window_; }
 
     [[nodiscard]] DriverStatus status() const override { return status_; }
@@ -100,7 +99,6 @@ private:
     bool rests_ = false; ///< held, and what was under way is over
     bool single_block_ = false;
     int records_ = 0;
-    std::string outbox_;
     DriverStatus status_;
 };
 

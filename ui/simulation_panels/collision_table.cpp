@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/collision_table.h"
+#include "ui/simulation_panels/collision_table.h"
 
 #include "core/base/text.h"
 #include "core/motion/trajectory.h"

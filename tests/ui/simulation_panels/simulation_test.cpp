@@ -4,7 +4,7 @@
 #include "core/geometry/glb.h"
 #include "core/project/project_file.h"
 #include "tests/ui/person/person.h"
-#include "ui/toolpath_panels/simulation_notices.h"
+#include "ui/simulation_panels/simulation_notices.h"
 #include "ui/workspaces/stock_workspace.h"
 
 #include <gmock/gmock.h>

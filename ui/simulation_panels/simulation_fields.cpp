@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/simulation_fields.h"
+#include "ui/simulation_panels/simulation_fields.h"
 
 #include "core/base/error.h"
 #include "core/base/sentences.h"
@@ -9,9 +9,9 @@
 #include "core/simulation/spec_text.h"
 #include "ui/panels/fields.h"
 #include "ui/panels/numbers_text.h"
-#include "ui/toolpath_panels/deviation_histogram.h"
-#include "ui/toolpath_panels/section_fields.h"
-#include "ui/toolpath_panels/simulation_notices.h"
+#include "ui/simulation_panels/deviation_histogram.h"
+#include "ui/simulation_panels/section_fields.h"
+#include "ui/simulation_panels/simulation_notices.h"
 #include "ui/widgets/notices.h"
 #include "ui/workspaces/stock_workspace.h"
 
@@ -110,8 +110,10 @@ void stock_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
 std::string tool_fault(const std::string& text, const kinematics::MachineModel& machine) {
     try {
         std::vector<std::string> ignored;
-        (void)plan::named_tool(text, machine, ignored);
-        return {};
+        const plan::NamedTool tool = plan::named_tool(text, machine, ignored);
+        return tool.number
+                   ? "The field says which tool this is: leave out \"" + std::to_string(*tool.number) + "=\"."
+                   : std::string();
     } catch (const Error& error) {
         return with_sentence(as_sentence(error.diagnostic().message), as_sentence(error.diagnostic().hint));
     }

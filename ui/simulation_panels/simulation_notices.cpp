@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/simulation_notices.h"
+#include "ui/simulation_panels/simulation_notices.h"
 
 #include "core/base/counted.h"
 #include "core/base/sentences.h"

@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/section_fields.h"
+#include "ui/simulation_panels/section_fields.h"
 
 #include "core/simulation/stock.h"
 #include "ui/workspaces/stock_workspace.h"

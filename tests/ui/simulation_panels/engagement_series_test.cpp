@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/engagement_series.h"
+#include "ui/simulation_panels/engagement_series.h"
 
 #include "core/base/error.h"
 #include "core/kinematics/machine_file.h"

@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/simulation_notices.h"
+#include "ui/simulation_panels/simulation_notices.h"
 
 #include <gtest/gtest.h>
 

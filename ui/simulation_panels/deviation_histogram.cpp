@@ -1,4 +1,4 @@
-#include "ui/toolpath_panels/deviation_histogram.h"
+#include "ui/simulation_panels/deviation_histogram.h"
 
 #include "core/base/text.h"
 #include "ui/viewport/stock_sight.h"
