@@ -49,8 +49,9 @@ constexpr std::array core_order = {
     Rank{"mesh_finish", 5},
 };
 
-// Panels of one workspace know nothing of those of another; what several need lies in ui/panels. The arm's
-// are moved by hand as a machine is.
+// Panels of one workspace know nothing of those of another; what several need lies in ui/panels. Two take
+// fields of another: an arm is moved by hand as a machine is, and the program of a plot is simulated as that
+// of a tool path.
 constexpr std::array ui_order = {
     Rank{"render", 0},
     Rank{"widgets", 0},
@@ -60,10 +61,10 @@ constexpr std::array ui_order = {
     Rank{"panels", 4},
     Rank{"design_panels", 5},
     Rank{"machine_panels", 5},
-    Rank{"plot_panels", 5},
     Rank{"processor_panels", 5},
     Rank{"toolpath_panels", 5},
     Rank{"arm_panels", 6},
+    Rank{"plot_panels", 6},
     Rank{"window", 7},
 };
 
