@@ -10,7 +10,7 @@ namespace millwright::app {
 /// Adds the command; where it is meant, `chosen` becomes what is to be done.
 void add_plot_command(CLI::App& app, Command& chosen);
 
-/// Adds `play` to the group `plot`: sends a point file to a table, one point a period.
+/// Adds `play` to the group `plot`: sends a point file to a table, one point per period.
 void add_plot_play(CLI::App& group, Command& chosen);
 
 } // namespace millwright::app

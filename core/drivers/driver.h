@@ -1,4 +1,4 @@
-// The border to every machine: one interface, one implementation a kind of controller in drivers/. Lengths
+// The border to every machine: one interface, one implementation per kind of controller in drivers/. Lengths
 // mm, angles rad, times s.
 //
 // Threads: every member may be called from any thread and returns soon; hold, stop and emergency_stop act at

@@ -27,7 +27,7 @@ public:
     PreviewBuilder& operator=(const PreviewBuilder&) = delete;
     ~PreviewBuilder() override;
 
-    /// To be told before each line that is executed.
+    /// To be called before each line that is executed.
     void begin_step(Step step);
     /// The path so far as a chunk, without waiting until it is full.
     void finish();

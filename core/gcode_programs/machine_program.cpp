@@ -312,7 +312,7 @@ private:
         block.text = std::move(text);
     }
 
-    /// Once a line: M9 ends mist and flood.
+    /// Once per line: M9 ends mist and flood.
     void switch_coolant_off(SourcePlace source) {
         const auto& blocks = result_.program.blocks;
         const bool done = !blocks.empty() && blocks.back().kind == program::BlockKind::coolant_off &&

@@ -56,7 +56,7 @@ std::size_t index_of(const std::vector<double>& numbers, double number) {
     return std::min(static_cast<std::size_t>(found - numbers.begin()), numbers.size() - 1);
 }
 
-/// Edges that go from one line to the next, one vector a slice. A corner is on one line whatever edge it is
+/// Edges that go from one line to the next, one vector per slice. A corner is on one line whatever edge it is
 /// an end of, so that as many edges of a closed loop come to a line as go from it.
 using Slices = std::vector<std::vector<Bound>>;
 

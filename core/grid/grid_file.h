@@ -1,5 +1,5 @@
 // The text files of the thesis's solver. Pairs: "x y" of every node, row by row, no header, so the reader
-// needs the size. Blocks: all x as one line a row, then all y; numbers 18 wide with 8 decimals, each
+// needs the size. Blocks: all x as one line per row, then all y; numbers 18 wide with 8 decimals, each
 // followed by a blank; residuals are written the same way, R_X then R_Y. Source: (Parasilmongkol 1997, KMITL)
 // appendix B.
 #pragma once

@@ -35,7 +35,7 @@ public:
 
     using Listener = std::function<void(const JobReport&)>;
 
-    /// Runs the job to its end and returns how it ended; blocks, so call it from a thread that may wait.
+    /// Runs the whole job and returns how it ended; blocks, so call it from a thread that may wait.
     /// `listener` is called from that thread. Cancelling `progress` stops the machine. Throws Error before
     /// any motion if something is wrong with job, log folder or driver, or another job is running; if the log
     /// cannot be written any more or the listener throws, stops the machine, says so in the log if that takes

@@ -64,7 +64,7 @@ struct ProgramCheck {
     std::vector<Diagnostic> errors;
     /// Of the text, ascending: lines that broke those rules, so that ranges and the rest are without them.
     std::vector<int> unread_lines;
-    int unread_from = 0; ///< reading ended in this line, before the program did; 0: it was read to its end
+    int unread_from = 0; ///< reading ended in this line, before the program did; 0: it was read completely
 };
 
 /// `start`, `offsets` and `modes` are what the controller reports: where the machine stands, its work

@@ -34,7 +34,7 @@ private:
 };
 
 // The listening end of a TCP connection. One client at a time holds it; another one waits a moment in case
-// that one is just leaving, and is then told who it is and sent away.
+// that one is just leaving, and then learns who it is and is sent away.
 
 class TcpServer final : public Link {
 public:

@@ -27,7 +27,7 @@ struct Drop {
 
 class DropTree {
 public:
-    /// Both sides of a triangle stop a cutter. `open_edges`: bit k for the edge from corner k, one entry a
+    /// Both sides of a triangle stop a cutter. `open_edges`: bit k for the edge from corner k, one entry per
     /// triangle; or empty. Throws Defect unless all points are finite; Cancelled.
     DropTree(exchange::TriangleMesh mesh, std::vector<std::uint8_t> open_edges, const Progress& progress);
 

@@ -91,7 +91,7 @@ std::vector<Lane> lanes_over(const Eigen::AlignedBox2d& box, int along, double s
 
 struct LinePasses {
     std::vector<TracedRun> runs;
-    std::vector<PassLine> lines; ///< one a run
+    std::vector<PassLine> lines; ///< one per run
     std::int64_t drops = 0;
 };
 

@@ -36,7 +36,7 @@ struct FinishSettings {
 
 struct FinishPass {
     std::vector<Vec3> tips;     ///< on the part
-    std::vector<Vec3> contacts; ///< one a tip
+    std::vector<Vec3> contacts; ///< one per tip
     bool is_across = false;
     /// Of the tip from the pass before to this one, at least link_clearance above the mesh: how far along the
     /// axis from the part's origin. Of the first pass the one above its own beginning.

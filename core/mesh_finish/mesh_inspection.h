@@ -22,7 +22,7 @@ struct MeshInspection {
     OddPlace shared_by_many; ///< edges of more than two
     OddPlace turned_over;    ///< edges whose two triangles do not look to the same side
     OddPlace slivers;        ///< triangles less high than a thousandth of their longest edge
-    /// Bit k for the edge from corner k to the next where it is open; one entry a triangle.
+    /// Bit k for the edge from corner k to the next where it is open; one entry per triangle.
     std::vector<std::uint8_t> open;
 };
 

@@ -25,7 +25,7 @@ struct FinishCheck {
     double within = 0.0;                ///< share of that where no more than the tolerance is left
     std::optional<FinishExtreme> left;  ///< most that is left where it fits
     std::optional<FinishExtreme> gouge; ///< deepest cut below the mesh, anywhere
-    std::vector<simulation::Deviation> deviations; ///< one a point of the surface
+    std::vector<simulation::Deviation> deviations; ///< one per point of the surface
     std::vector<bool> fitting;
     double resolution = 0.0; ///< of the field
 };

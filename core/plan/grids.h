@@ -52,7 +52,7 @@ make_optimiser(project::GridMethod method,
 
 [[nodiscard]] GridOutcome uniform_outcome(const project::GridInput& input);
 
-/// Runs an optimiser to its end.
+/// Runs an optimiser until it has finished.
 [[nodiscard]] GridOutcome improved_outcome(grid::GridOptimiser& optimiser, const Progress& progress);
 
 /// What a grid is made for, and by what.

@@ -12,7 +12,7 @@ namespace millwright::plan {
 
 namespace {
 
-constexpr int raster = 97; // points a side: finer than the eye asks of a smooth field
+constexpr int raster = 97; // points per side: finer than the eye asks of a smooth field
 
 /// As solvers of the elliptic grid begin with it, but for the region.
 grid::WeightPtr weight_at_start(const project::GridInput& input,

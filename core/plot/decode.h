@@ -1,4 +1,4 @@
-// Strokes as points for a table that takes one point a sampling period: equally far apart on the path, so
+// Strokes as points for a table that takes one point per sampling period: equally far apart on the path, so
 // that its speed is constant. Lengths mm, speeds mm/s, times s. Source: KMITL thesis, HPGL decoder and
 // constant-velocity control of an XYZ table, ch. 3, eqs 3-1 to 3-7.
 #pragma once
@@ -55,7 +55,7 @@ struct DecodeSettings {
 [[nodiscard]] std::vector<Vec3>
 decode(const Strokes& strokes, const DecodeSettings& settings, const Vec2& start = Vec2::Zero());
 
-// A path in space as points for a table that takes one point a sampling period (decode.h).
+// A path in space as points for a table that takes one point per sampling period (decode.h).
 
 struct DecodedPath {
     std::vector<Vec3> points;

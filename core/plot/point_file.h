@@ -1,4 +1,4 @@
-// The point file of the table: one point a line, X, Y, Z in mm, commas between, as the KMITL thesis on the
+// The point file of the table: one point per line, X, Y, Z in mm, commas between, as the KMITL thesis on the
 // HPGL decoder of an XYZ table prints it (two decimals). Tables of other programs are read, too: semicolons
 // or tabs between, then with decimal commas or points, and a first line that names the columns.
 #pragma once

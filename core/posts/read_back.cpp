@@ -222,7 +222,7 @@ private:
         return step;
     }
 
-    /// The tool comes before all else, where the program has one and the control can be told.
+    /// The tool comes before all else, where the program has one and the control takes a tool number.
     void compare_tool() {
         if (!program_.tool || format_.blocks.tool.empty()) { // a control that needs one has any
             std::erase_if(steps_,

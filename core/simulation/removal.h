@@ -47,7 +47,7 @@ inline constexpr double most_steps_per_move = 1e7;
 step_count(const CuttingBody& cutter, const geometry::ToolPose& from, const geometry::ToolPose& to);
 
 /// A straight move, with the axis turning evenly: appends its steps to `steps`. Throws Defect if there are
-/// more than `most_steps_a_move`.
+/// more than `most_steps_per_move`.
 void divide(const CuttingBody& cutter,
             const geometry::ToolPose& from,
             const geometry::ToolPose& to,

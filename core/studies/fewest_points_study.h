@@ -37,7 +37,7 @@ inline constexpr int most_uniform = 4000;
                                                          const plan::Folders& folders,
                                                          const Progress& progress);
 
-/// Comma-separated, one line a row.
+/// Comma-separated, one line per row.
 [[nodiscard]] std::string fewest_points_csv(const FewestPointsCase& of,
                                             std::span<const FewestPointsRow> rows);
 

@@ -71,7 +71,7 @@ struct StudyRow {
 [[nodiscard]] std::vector<StudyRow>
 studied(const StudyCase& of, const plan::Folders& folders, const Progress& progress);
 
-/// Comma-separated, one line a row.
+/// Comma-separated, one line per row.
 [[nodiscard]] std::string study_csv(std::span<const StudyRow> rows);
 [[nodiscard]] std::string study_json(std::span<const StudyRow> rows);
 /// One table a surface and machine: largest / mean error and the largest axis deviation, and where a method

@@ -53,6 +53,7 @@ TEST(Includes, OfAnUnknownFolderInTheCoreAreFound) {
 TEST(Includes, GoDownInTheOrderOfTheWindow) {
     EXPECT_THAT(said_of("ui/window/a.cpp", "\"ui/arm_panels/b.h\""), IsEmpty());
     EXPECT_THAT(said_of("ui/arm_panels/a.cpp", "\"ui/machine_panels/b.h\""), IsEmpty());
+    EXPECT_THAT(said_of("ui/plot_panels/a.cpp", "\"ui/simulation_panels/b.h\""), IsEmpty());
     EXPECT_THAT(said_of("ui/workspaces/a.cpp", "\"ui/actions/action.h\""),
                 ElementsAre("ui/workspaces includes upward: ui/actions/action.h"));
     EXPECT_THAT(said_of("ui/panels/a.cpp", "\"ui/plot_panels/b.h\""),

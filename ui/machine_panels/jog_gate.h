@@ -18,8 +18,8 @@ public:
     static constexpr double quiet = 0.5;
     static constexpr int quiet_frames = 3; ///< and so many frames, which may be slow
 
-    /// Once a frame. `held`: something that moves a machine is down. `focused`: the window has the keyboard.
-    /// `asked`: something lies over the workspace. True: jogs may begin and go on.
+    /// Once per frame. `held`: something that moves a machine is down. `focused`: the window has the
+    /// keyboard. `asked`: something lies over the workspace. True: jogs may begin and go on.
     [[nodiscard]] bool follow(bool held, bool focused, bool asked, actions::Workspace workspace, Time now);
 
 private:

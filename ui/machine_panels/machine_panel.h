@@ -1,5 +1,5 @@
 // The Machine workspace: at the left the position in big figures and the jog; in the inspector which machine,
-// the job with hold and stop, and the rest of what a machine can be told.
+// the job with hold and stop, and the other commands for the machine.
 #pragma once
 
 #include "ui/machine_panels/connection_panel.h"

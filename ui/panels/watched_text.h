@@ -16,7 +16,7 @@ struct WatchedLabels {
 
 [[nodiscard]] WatchedLabels watched_labels(grid::OptimiserStatus status);
 
-/// Why the figures at the end can be others than those so far, and why a grid with less error is not kept;
+/// Why the figures at the end can be other than those so far, and why a grid with less error is not kept;
 /// empty where there is nothing to say.
 [[nodiscard]] std::string watched_note(const grid::OptimiserState& state);
 

@@ -1,5 +1,5 @@
 // Dear ImGui on a context: owns ImGui's state, feeds it input, draws it into the bound framebuffer.
-// One session a context; it dies before the context. Fonts are added to ImGui's atlas (FreeType builds it)
+// One session per context; it dies before the context. Fonts are added to ImGui's atlas (FreeType builds it)
 // between the constructor and the first frame, or before rebuild_fonts().
 #pragma once
 

@@ -1,5 +1,6 @@
 // Draws the primitives of the 3D layers into the bound framebuffer. Owns the shader programs and the colour
-// maps; made once a context, after it and gone before it. See-through things are drawn last, far ones first.
+// maps; made once per context, after it and gone before it. See-through things are drawn last, far ones
+// first.
 #pragma once
 
 #include "ui/render/gl_objects.h"

@@ -30,11 +30,10 @@ void section_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
     const Box3 box = simulation::bounds(result->stock);
     const Vec3 middle = box.center();
     const viewport::StockSection& section = now.view_state.stock.section;
-    if (const auto on =
-            ui.toggle("section",
-                      "Section",
-                      now.view_state.stock.sectioned,
-                      "Takes away what lies on one side of a plane, so that you can look inside")) {
+    if (const auto on = ui.toggle("section",
+                                  "Section",
+                                  now.view_state.stock.sectioned,
+                                  "Hides one side of a plane to show the inside")) {
         ask.show([on = *on, at = middle](actions::ViewState& view_state) {
             view_state.stock.sectioned = on;
             view_state.stock.section.at = at[view_state.stock.section.axis];
@@ -50,8 +49,14 @@ void section_fields(Ui& ui, const FrameState& now, ActionQueue& ask) {
         });
     }
     const double low = box.min()[section.axis], high = box.max()[section.axis];
-    const widgets::FieldInfo place{
-        "section_at", "Position", "mm", "Of the plane along its axis", low, high, 0.5 * (low + high), 2};
+    const widgets::FieldInfo place{"section_at",
+                                   "Position",
+                                   "mm",
+                                   "Position of the plane along its axis",
+                                   low,
+                                   high,
+                                   0.5 * (low + high),
+                                   2};
     if (const auto at = ui.number(std::clamp(section.at, low, high), place)) {
         change_section(ask, [at = *at](viewport::StockSection& s) { s.at = at; });
     }

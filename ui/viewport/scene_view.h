@@ -1,4 +1,4 @@
-// Draws a scene through a camera: all layers, without any words. Owns their buffers; made once a context,
+// Draws a scene through a camera: all layers, without any words. Owns their buffers; made once per context,
 // after it and gone before it.
 #pragma once
 
@@ -45,7 +45,7 @@ public:
     SceneView(const SceneView&) = delete;
     SceneView& operator=(const SceneView&) = delete;
 
-    /// Makes buffers anew for results that are others than those of the last scene.
+    /// Makes buffers anew for results other than those of the last scene.
     void update(const Scene& scene);
 
     /// What a camera has to see, in scene coordinates: of the scene last updated.

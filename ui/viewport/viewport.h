@@ -21,7 +21,7 @@ namespace millwright::viewport {
 
 enum class Arrangement { one, four };
 
-/// Made once a context, after it and gone before it; a session of ImGui has to be there when drawing.
+/// Made once per context, after it and gone before it; a session of ImGui has to be there when drawing.
 class Viewport {
 public:
     Viewport();

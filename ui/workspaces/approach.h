@@ -1,4 +1,4 @@
-// A job that begins at a line: worked out in the background before anybody runs it, so that a person sees
+// A job that begins at a line: worked out in the background before a person runs it, so that a person sees
 // what the machine will do first.
 #pragma once
 

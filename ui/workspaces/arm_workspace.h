@@ -69,7 +69,7 @@ public:
 
     [[nodiscard]] const arm::JointPositions& joints() const { return joints_; }
     [[nodiscard]] Frame tool() const;
-    /// 0 where the arm is singular (core/kinematics/arm_forward.h).
+    /// 0 where the arm is singular (core/arm/arm_forward.h).
     [[nodiscard]] double manipulability() const;
 
     /// Stops what moves. A joint stays inside its limits.

@@ -20,7 +20,7 @@ struct FilePlace {
 /// s: planned, or as fast as programmed where nothing is planned. 0 before the file is read.
 [[nodiscard]] double duration_of(const plan::OpenedProgram& opened);
 
-/// Where the motion is at `time`. Nothing before the file is read to its end, or if it has no lines.
+/// Where the motion is at `time`. Nothing before the file is read completely, or if it has no lines.
 [[nodiscard]] std::optional<FilePlace> place_at(const plan::OpenedProgram& opened, double time);
 
 /// The same, but at `step`, which may be one that moves nothing.

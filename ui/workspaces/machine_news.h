@@ -15,7 +15,7 @@ namespace millwright::actions {
 
 class MachineNews {
 public:
-    /// Once a frame. `driver`: null unless one is connected.
+    /// Once per frame. `driver`: null unless one is connected.
     void follow(const ConnectionView& machine,
                 const std::shared_ptr<drivers::Driver>& driver,
                 ViewState& view_state);

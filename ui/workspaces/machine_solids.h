@@ -1,4 +1,4 @@
-// The bodies of the project's machine for the 3D view, read once a machine.
+// The bodies of the project's machine for the 3D view, read once per machine.
 #pragma once
 
 #include "core/geometry/solid.h"

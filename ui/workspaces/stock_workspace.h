@@ -45,9 +45,9 @@ public:
     /// not known.
     void simulate(const FrameState& now);
     void cancel() { worker_.cancel(); }
-    /// Once a frame: the forecast of what is chosen, and the picture of the block that is shown. A new result
-    /// is shown at the end of the program; of a new stock the views are fitted to it. What is of a program
-    /// that has changed since ends, and gives its memory back.
+    /// Once per frame: the forecast of what is chosen, and the picture of the block that is shown. A new
+    /// result is shown at the end of the program; of a new stock the views are fitted to it. What is of a
+    /// program that has changed since ends, and gives its memory back.
     void follow(const FrameState& now, ViewState& view_state);
 
     /// As it was at the last follow(): all that one frame shows is of one result.

@@ -1,4 +1,4 @@
-// A machine that takes coordinates: where its axes shall be, one line a sampling period, and says nothing
+// A machine that takes coordinates: where its axes shall be, one line per sampling period, and says nothing
 // back. Programs, hold, resume, jogs and single lines are those of the virtual machine, whose positions are
 // sent; so what is sent keeps the limits of the axes at every moment. Machines with words of their own get
 // records of any pattern, and may answer each before the next is sent. Format:

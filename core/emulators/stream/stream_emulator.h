@@ -1,5 +1,5 @@
-// A machine that takes a coordinate stream: goes to one sample a period, says nothing, and remembers where it
-// was sent. Format: docs/reference/coordinate-stream.md. Lengths mm, angles degrees, as in the stream.
+// A machine that takes a coordinate stream: goes to one sample per period, says nothing, and remembers where
+// it was sent. Format: docs/reference/coordinate-stream.md. Lengths mm, angles degrees, as in the stream.
 #pragma once
 
 #include "core/emulators/emulator.h"

@@ -247,7 +247,7 @@ void ControlFlow::skip_branches(const Line& line) {
     }
 }
 
-/// A branch was executed to its end.
+/// A branch was executed completely.
 void ControlFlow::leave_branch(const Line& line, Cursor& cursor) {
     if (line.word != OWord::elseif) { // whose condition does not matter any more
         expect_end_of_line(cursor);

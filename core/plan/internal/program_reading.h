@@ -21,7 +21,7 @@ public:
                    const std::filesystem::path& assets,
                    std::function<void()> show);
 
-    /// The text is there. What is wrong with the program, or with its machine, is told in `now`. Throws
+    /// The text is there. What is wrong with the program, or with its machine, is reported in `now`. Throws
     /// Cancelled.
     void read(const Progress& progress);
 

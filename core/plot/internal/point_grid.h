@@ -10,7 +10,7 @@ namespace millwright::plot::internal {
 
 class PointGrid {
 public:
-    /// About two points a cell, also when most have been removed.
+    /// About two points per cell, also when most have been removed.
     explicit PointGrid(std::vector<Vec2> points);
 
     void remove(int point);

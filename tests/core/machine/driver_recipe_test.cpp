@@ -1,5 +1,5 @@
 // The worked example of docs/dev/recipes.md, "Add a driver": the whole row of a plotter that takes one record
-// a move.
+// per move.
 #include "core/drivers/records/records_driver.h"
 #include "core/links/link.h"
 #include "core/machine/driver_row.h"

@@ -18,7 +18,7 @@ public:
     ~TabStop();
 };
 
-/// Once a frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
+/// Once per frame: shows where the keyboard stands as soon as Tab is used, and goes on from there.
 void show_keyboard_on_tab();
 
 [[nodiscard]] bool keypad_enter_pressed();

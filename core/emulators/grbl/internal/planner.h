@@ -83,7 +83,7 @@ private:
 
 class Stepper {
 public:
-    /// Called with the owner of a block that has been executed to its end.
+    /// Called with the owner of a block that has been executed completely.
     using BlockDone = std::function<void(std::int64_t owner)>;
 
     /// `most_segments`: that are kept ready.

@@ -413,7 +413,7 @@ void PmacSession::refused(const Request& request, int error) {
         return;
     }
     if (request.kind == Kind::step && request.line == "CLOSE") {
-        return; // a program that was not written to its end has no sound structure
+        return; // a program that was not written completely has no sound structure
     }
     if (request.kind == Kind::definitions) { // a card that does not tell
         explain_open_loop(run_refusal_);

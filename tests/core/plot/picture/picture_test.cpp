@@ -28,7 +28,7 @@ std::uint32_t mean(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
     return (r + g + b) / 3;
 }
 
-/// The picture as stb_image and `rule` have it, of 16 bits a sample.
+/// The picture as stb_image and `rule` have it, of 16 bits per sample.
 Picture by_stb(const std::string& bytes, bool wide, const Rule& rule) {
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
