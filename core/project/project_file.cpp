@@ -155,7 +155,7 @@ fs::path from_folder(const fs::path& file, const fs::path& folder) {
 }
 
 /// From a folder that may be empty, which is the current one.
-fs::path absolute(const fs::path& path) {
+fs::path absolute_of(const fs::path& path) {
     return (fs::current_path() / path).lexically_normal();
 }
 
@@ -169,7 +169,7 @@ fs::path to_folder(const fs::path& file, const fs::path& folder) {
     if (!from_there.empty() && *from_there.begin() != "..") {
         return from_there;
     }
-    return file.is_absolute() ? file : absolute(file).lexically_relative(absolute(folder));
+    return file.is_absolute() ? file : absolute_of(file).lexically_relative(absolute_of(folder));
 }
 
 Project project(const JsonValue& root, const fs::path& folder) {

@@ -110,7 +110,7 @@ TEST_F(ImportCommand, SeveralFacesAreJoinedAndPlannedAsOneSurface) {
     const nlohmann::json faces = figures(joined, "faces");
     EXPECT_EQ(faces.at("surface").at("faces").size(), 4U);
     const auto uniform = [](const nlohmann::json& report) {
-        return report.at("errors").at("uniform").at("closest").at("max").get<double>();
+        return report.at("error").at("uniform").at("closest").at("max").get<double>();
     };
     EXPECT_NEAR(uniform(faces), uniform(whole), 0.02 * uniform(whole));
     EXPECT_THAT(run({"import", file, "--exact", "--faces", "1,4", "--out", joined}).err,
