@@ -34,6 +34,7 @@ protected:
                                          "scripts/build",
                                          "scripts/test",
                                          "scripts/fresh",
+                                         "scripts/package",
                                          "scripts/packages.txt",
                                          ".ci/run"}) {
             fs::copy_file(script, checkout / script);
@@ -120,6 +121,25 @@ TEST_F(SetUp, IsNotBegunWhereTheBuildCannotWrite) {
                 HasSubstr("cannot write to the folder out: name another one with --out"));
 }
 
+TEST_F(SetUp, IsNotBegunWhereThePackageCannotBeWritten) {
+    install("apt-get", "echo must not be run; exit 1");
+    write_content(checkout / "out", "a file\n");
+    const ShellRun out = in_checkout("scripts/package --out out");
+    EXPECT_EQ(out.exit_code, 1);
+    EXPECT_THAT(out.output,
+                AllOf(testing::ContainsRegex(
+                          "package: cannot write to the folder .*/out: name another one with --out"),
+                      Not(HasSubstr("must not be run"))));
+    fs::remove_all(checkout / "build");
+    write_content(checkout / "build", "a file\n");
+    const ShellRun build = in_checkout("scripts/package");
+    EXPECT_EQ(build.exit_code, 1);
+    EXPECT_THAT(
+        build.output,
+        AllOf(testing::ContainsRegex("package: cannot write to .*/build: clone the repository to a folder"),
+              Not(HasSubstr("must not be run"))));
+}
+
 // The packages were installed and the format checked before.
 TEST_F(Scripts, UnknownPresetsAreNamedAtOnce) {
     install("apt-get", "echo must not be run; exit 1");
@@ -129,6 +149,28 @@ TEST_F(Scripts, UnknownPresetsAreNamedAtOnce) {
         EXPECT_THAT(run.output, HasSubstr("unknown preset 'releas': use release, debug, asan, tsan or fuzz"));
         EXPECT_THAT(run.output, Not(HasSubstr("must not be run"))) << script;
     }
+}
+
+TEST_F(Scripts, WarningsAreErrorsForDevelopersAlone) {
+    install("df", "echo 9000");
+    install("ninja", "exit 0");
+    install("cmake", "case \"$*\" in --build*) echo 'a.cpp:1:2: warning: unused variable' ;; esac");
+    EXPECT_EQ(in_checkout("scripts/build").exit_code, 0);
+    const ShellRun all = in_checkout("scripts/build release all");
+    EXPECT_EQ(all.exit_code, 1);
+    EXPECT_THAT(all.output, HasSubstr("warnings count as errors here: see build/release/build.log"));
+}
+
+TEST_F(Scripts, ABuildThatTheDiskHasNoRoomForIsNotBegun) {
+    install("df", "echo 12");
+    install("ninja", "exit 0");
+    install("cmake", "echo must not be run");
+    const ShellRun run = in_checkout("scripts/build");
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.output,
+                AllOf(HasSubstr("only 12 MB are free in "),
+                      HasSubstr("this build needs up to 700 MB"),
+                      Not(HasSubstr("must not be run"))));
 }
 
 TEST_F(Scripts, FreshGoesOnOnlyInAMachineThatIsThere) {
