@@ -43,7 +43,8 @@ protected:
 TEST_F(JoinedFacesInTheWindow, AreAddedAndTakenOutByClicks) {
     click("faces/list/1");
     click("patch/join");
-    EXPECT_EQ(bench().latest()->surface->surface.exact_faces().size(), 1U) << "the first alone";
+    EXPECT_THAT(bench().choice().joined, ElementsAre(1));
+    EXPECT_EQ(bench().latest()->surface->surface.patches.size(), 1U) << "the first alone, which is a patch";
     click("faces/list/2");
     EXPECT_THAT(bench().choice().joined, ElementsAre(1, 2));
     ASSERT_TRUE(bench().is_ready());

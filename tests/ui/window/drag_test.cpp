@@ -159,6 +159,7 @@ TEST_F(DragOnTheSurface, OfACornerOfTheRegionIsTakenBack) {
                            p.grid.elliptic.region.outline = {{0.4, 0.4}, {0.6, 0.4}, {0.5, 0.6}};
                        },
                        {});
+    person_.wait_idle(); // notes above the button come and go with the plan
     person_.click("inspector/surface_tool/tool/outline");
     person_.wait_idle();
     const project::Project before = person_.project();
