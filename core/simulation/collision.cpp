@@ -76,7 +76,7 @@ public:
 
 private:
     static constexpr double searched = 0.8;   // of the progress
-    static constexpr int most_renewals = 200; // of the mesh of what is left: up to a second each
+    static constexpr int most_renewals = 200; // of a mesh of what is left: up to a second each
 
     struct Setup {
         int first_block = 0;
@@ -165,35 +165,55 @@ private:
         events = std::move(kept);
     }
 
+    /// By the surface of what is left. What that does not show, the blocks may: they have all material of
+    /// the lines.
     bool is_in_rest(const Setup& setup, PairEvent& event) {
         const Progress here = progress_.part(done_, done_);
         if (!rest_) {
             rest_.emplace(*input_.removal, here);
         }
         rest_->advance_to(event.block, here);
+        const auto found = found_in(RemainingStock::Shape::surface, setup, event, here);
+        if (found && found->approach.contact) {
+            event = *found;
+            return true;
+        }
+        const auto in_blocks = found_in(RemainingStock::Shape::blocks, setup, event, here);
+        if (in_blocks && (in_blocks->approach.contact || !found)) {
+            event = *in_blocks;
+            return true;
+        }
+        event = found.value_or(event);
+        return found.has_value();
+    }
+
+    /// The event with what is left in this shape; nullopt where they stay apart.
+    std::optional<PairEvent>
+    found_in(RemainingStock::Shape shape, const Setup& setup, PairEvent event, const Progress& here) {
         const CollisionPair& uncut = setup.pairs[event.pair];
         const RelativeMotion motion = motion_of({&setup, event.pair, {}}, event.block);
-        while (rest_->mesh()) {
+        int& renewals = renewals_[shape];
+        while (rest_->mesh(shape)) {
             progress_.check();
-            const CollisionPair pair = uncut.with_stock(rest_->mesh());
+            const CollisionPair pair = uncut.with_stock(rest_->mesh(shape));
             const auto found = approach_of(pair, motion, input_.clearance, event.first);
             if (!found) {
-                return false; // the mesh is all that is left, or more
+                return std::nullopt;
             }
             event.approach = *found;
-            if (renewals_ == most_renewals || rest_->is_current_near(in_workpiece(setup, event))) {
+            if (renewals == most_renewals || rest_->is_current_near(in_workpiece(setup, event), shape)) {
                 event.depth = found->contact ? deepest_of(pair, motion, found->time) : 0.0;
-                return true;
+                return event;
             }
-            rest_->renew(here);
-            if (++renewals_ == most_renewals) {
+            rest_->renew(shape, here);
+            if (++renewals == most_renewals) {
                 report_.unchecked.push_back(fmt::format(
                     "from line {} on, machine bodies are compared with the stock that is left before "
                     "it: later cuts may have removed what they meet",
                     line_of(event.block)));
             }
         }
-        return false;
+        return std::nullopt;
     }
 
     /// At a few moments from `begin` on.
@@ -357,9 +377,9 @@ private:
     CollisionReport report_;
     std::vector<Setup> setups_;
     const Setup* last_ = nullptr;
-    std::optional<RemainingStock> rest_; // from the first event with the stock on
-    int renewals_ = 0;                   // of its mesh
-    double done_ = 0.0;                  // of the progress
+    std::optional<RemainingStock> rest_;            // from the first event with the stock on
+    std::map<RemainingStock::Shape, int> renewals_; // of its meshes
+    double done_ = 0.0;                             // of the progress
     std::vector<Row> rows_;
     std::map<Key, std::size_t> open_;
     std::map<int, std::size_t> beyond_; // axes that are beyond a limit now, and their violation

@@ -2,6 +2,7 @@
 
 #include "core/simulation/collision_bodies.h"
 #include "core/simulation/cut_mesh.h"
+#include "core/simulation/internal/stock_blocks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,10 @@ std::shared_ptr<const CollisionMesh> moved_mesh(CollisionTriangles surface, cons
 } // namespace
 
 RemainingStock::RemainingStock(const SimulationInput& input, const Progress& progress)
-    : origin_(input.machine.workpiece_origin()), simulator_(input, Rewind::none, progress),
-      mesh_(moved_mesh(surface_of(input.stock), origin_)), versions_(versions()) {}
+    : origin_(input.machine.workpiece_origin()),
+      simulator_(input, Rewind::none, progress), surface_{moved_mesh(surface_of(input.stock), origin_),
+                                                          versions()},
+      blocks_(surface_) {}
 
 RemainingStock::Versions RemainingStock::versions() const {
     Versions found;
@@ -40,9 +43,10 @@ RemainingStock::Versions RemainingStock::versions() const {
     return found;
 }
 
-bool RemainingStock::is_current_near(const Vec3& place) const {
+bool RemainingStock::is_current_near(const Vec3& place, Shape shape) const {
     const DexelField& field = simulator_.field();
-    const double around = 2.0 * stride_; // cells: a corner of the mesh is made of lines beside it
+    const Made& made = shape == Shape::surface ? surface_ : blocks_;
+    const double around = 2.0 * made.stride; // cells: a corner of the mesh is made of lines beside it
     const auto tiles_at = [&](int axis, int count) {
         const double at = (place[axis] - field.box().min()[axis]) / field.cell()[axis];
         const double last = count - 1;
@@ -54,7 +58,7 @@ bool RemainingStock::is_current_near(const Vec3& place) const {
         const auto [columns, rows] = field.tile_count(k);
         const auto [i0, i1] = tiles_at((k + 1) % 3, columns);
         const auto [j0, j1] = tiles_at((k + 2) % 3, rows);
-        const auto& known = versions_.at(static_cast<std::size_t>(k));
+        const auto& known = made.versions.at(static_cast<std::size_t>(k));
         for (int j = j0; j <= j1; ++j) {
             for (int i = i0; i <= i1; ++i) {
                 const std::size_t number = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
@@ -68,11 +72,17 @@ bool RemainingStock::is_current_near(const Vec3& place) const {
     return true;
 }
 
-void RemainingStock::renew(const Progress& progress) {
-    CutMesh made = mesh_of(simulator_.field(), most_triangles, progress);
-    stride_ = made.stride;
-    versions_ = versions();
-    mesh_ = moved_mesh({std::move(made.points), std::move(made.triangles)}, origin_);
+void RemainingStock::renew(Shape shape, const Progress& progress) {
+    const DexelField& field = simulator_.field();
+    if (shape == Shape::surface) {
+        CutMesh made = mesh_of(field, most_triangles, progress);
+        surface_ = {moved_mesh({std::move(made.points), std::move(made.triangles)}, origin_),
+                    versions(),
+                    made.stride};
+    } else {
+        StockBlocks made = blocks_of(field, most_triangles, blocks_.stride, progress);
+        blocks_ = {moved_mesh(std::move(made.surface), origin_), versions(), made.stride};
+    }
 }
 
 } // namespace millwright::simulation

@@ -114,6 +114,56 @@ TEST(RemainingStock, TheHeadMeetsStockThatNoMoveHasCut) {
     EXPECT_NEAR(found.collisions.front().time, 0.5, 0.01);
 }
 
+/// A slot 10 mm deep on each side of a rib that is 0.6 mm thin and begins at X `low`. The mesh of the surface
+/// takes two cells of 0.5 mm together. The head goes down into one slot, along it, and through the rib.
+CollisionReport thin_rib_report(double low) {
+    constexpr double thickness = 0.6, radius = 5.0;
+    WrittenProgram writer(router_of_bodies());
+    writer.go(BlockKind::rapid, {{'X', low - radius}, {'Y', -10.0}, {'Z', -10.0}})
+        .go(BlockKind::feed, {{'Y', 110.0}})
+        .go(BlockKind::rapid, {{'X', low + thickness + radius}})
+        .go(BlockKind::feed, {{'Y', -10.0}})
+        .go(BlockKind::rapid, {{'Z', 40.0}});
+    const int thin_tool = writer.program().block_count();
+    writer.go(BlockKind::rapid, {{'X', low - radius}, {'Y', 50.0}})
+        .go(BlockKind::rapid, {{'Z', -7.0}})
+        .go(BlockKind::feed, {{'Y', 70.0}})
+        .go(BlockKind::feed, {{'X', low + thickness + radius}});
+    const Stock stock(BoxStock{{0.0, 0.0, -80.0}, {120.0, 100.0, 0.0}});
+    const SimulationInput removal{
+        .program = writer.program(),
+        .machine = router_of_bodies(),
+        .tools = {{0, 1, end_mill(2.0 * radius, 60.0)}, {thin_tool, 2, end_mill(2.0, 10.0)}},
+        .stock = stock,
+        .resolution = 0.5};
+    return check_collisions(
+        {.program = writer.program(),
+         .machine = router_of_bodies(),
+         .tools = {{.first_block = thin_tool, .cutter = end_mill(2.0, 10.0)}},
+         .bodies = {head_box("collar", 'Z', {-2.0, -2.0, 2.0}, {2.0, 2.0, 60.0}),
+                    collision_body(router_of_bodies(), "stock", BodyRole::stock, surface_of(stock), true)},
+         .first_block = thin_tool,
+         .removal = &removal},
+        Progress());
+}
+
+TEST(RemainingStock, AThinRibIsMetWhereverItLiesBetweenTheLines) {
+    for (const double beyond_line : {0.1, 0.2, 0.35, 0.5, 0.6, 0.7, 0.85, 1.0}) {
+        const double low = 60.0 + beyond_line;
+        SCOPED_TRACE(low);
+        const CollisionReport found = thin_rib_report(low);
+        EXPECT_THAT(found.near_misses, IsEmpty());
+        ASSERT_THAT(found.collisions, SizeIs(1));
+        const Collision& rib = found.collisions.front();
+        EXPECT_EQ(rib.moving, "collar");
+        EXPECT_EQ(rib.still, "stock");
+        EXPECT_EQ(rib.line, 10 + 8);
+        EXPECT_NEAR(rib.time * 10.6, 3.0, 0.02); // its face is 5 mm from the start, and the head 2 mm wide
+        EXPECT_NEAR(rib.place.x(), low, 0.02);
+        EXPECT_GT(rib.depth, 0.1);
+    }
+}
+
 TEST(BodiesOfOneSide, MeetWhereTheyCan) {
     WrittenProgram writer(router_of_bodies());
     writer.go(BlockKind::rapid, {{'X', 0.0}, {'Y', 0.0}, {'Z', 50.0}})
