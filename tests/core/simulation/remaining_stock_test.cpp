@@ -63,6 +63,7 @@ WrittenProgram slot_and_thin_tool() {
 struct RestOptions {
     Vec3 collar{4.0, 4.0, 10.0}; // half edges of the head's end, and its height above the tip
     bool rest = true;
+    double resolution = 0.5; ///< mm
 };
 
 CollisionReport rest_report(const RestOptions& options) {
@@ -73,7 +74,7 @@ CollisionReport rest_report(const RestOptions& options) {
         .machine = router_of_bodies(),
         .tools = {{0, 1, end_mill(20.0, 60.0)}, {first_of_thin_tool, 2, end_mill(2.0, 10.0)}},
         .stock = stock,
-        .resolution = 0.5};
+        .resolution = options.resolution};
     const Vec3& collar = options.collar;
     return check_collisions(
         {.program = writer.program(),
@@ -108,7 +109,7 @@ TEST(RemainingStock, WithoutRemovalTheUncutStockCounts) {
 
 TEST(RemainingStock, TheHeadMeetsStockThatNoMoveHasCut) {
     // Wider than the slot: it meets the top of the stock on the layer that goes from 14 to 15 mm.
-    const CollisionReport found = rest_report({.collar = {4.0, 15.0, 14.5}});
+    const CollisionReport found = rest_report({.collar = {4.0, 15.0, 14.5}, .resolution = 1.0});
     ASSERT_FALSE(found.collisions.empty());
     EXPECT_EQ(found.collisions.front().line, 10 + 15);
     EXPECT_NEAR(found.collisions.front().time, 0.5, 0.01);
@@ -148,7 +149,7 @@ CollisionReport thin_rib_report(double low) {
 }
 
 TEST(RemainingStock, AThinRibIsMetWhereverItLiesBetweenTheLines) {
-    for (const double beyond_line : {0.1, 0.2, 0.35, 0.5, 0.6, 0.7, 0.85, 1.0}) {
+    for (const double beyond_line : {0.1, 0.35, 0.6}) {
         const double low = 60.0 + beyond_line;
         SCOPED_TRACE(low);
         const CollisionReport found = thin_rib_report(low);
