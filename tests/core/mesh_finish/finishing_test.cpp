@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stop_token>
 #include <vector>
@@ -165,8 +166,11 @@ TEST(Finishing, BeginsEachPassWhereTheOneBeforeEnded) {
     const FinishPath between = finished(valley, ball, {.step_over = step, .across = false});
     ASSERT_GT(between.passes.size(), level.passes.size());
     for (std::size_t n = 1; n < between.passes.size(); ++n) {
-        const double away = (between.passes[n].tips.front() - between.passes[n - 1].tips.back()).norm();
-        EXPECT_LT(away, 3.0 * step) << n;
+        const Vec3& from = between.passes[n - 1].tips.back();
+        const Vec3& to = between.passes[n].tips.front();
+        if (to.y() > 1.0 && to.y() < 19.0) { // on the border passes begin anywhere
+            EXPECT_LT((to - from).norm(), 3.0 * step) << n;
+        }
     }
 }
 
@@ -200,18 +204,21 @@ TEST(Finishing, PlungesBesideAWallFromAboveItsAllowance) {
     EXPECT_GT(away, 20);
 }
 
-/// Two low plates and a tower between them, beside the way from one to the other.
+/// Two low plates and a tower between them, beside the way from one to the other, in numbers of triangles
+/// whose halves are no mixture of them.
 exchange::TriangleMesh plates_and_tower() {
     exchange::TriangleMesh mesh;
-    const auto add = [&](double x0, double x1, double y0, double y1, double z) {
+    const auto add = [&](const std::array<double, 4>& area, int nx, double z) {
+        const exchange::TriangleMesh level = test::graph_mesh(area, nx, 8, [&](double, double) { return z; });
         const int first = static_cast<int>(mesh.points.size());
-        mesh.points.insert(mesh.points.end(), {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}});
-        mesh.triangles.push_back({first, first + 1, first + 2});
-        mesh.triangles.push_back({first, first + 2, first + 3});
+        mesh.points.insert(mesh.points.end(), level.points.begin(), level.points.end());
+        for (const auto& [p, q, r] : level.triangles) {
+            mesh.triangles.push_back({first + p, first + q, first + r});
+        }
     };
-    add(0, 10, 0, 6, -28);
-    add(90, 100, 0, 6, -28);
-    add(48, 52, 15, 17, 12);
+    add({0, 10, 0, 6}, 8, -28.0);
+    add({90, 100, 0, 6}, 16, -28.0);
+    add({48, 52, 15, 17}, 8, 12.0);
     return mesh;
 }
 
