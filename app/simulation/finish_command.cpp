@@ -6,6 +6,8 @@
 #include "app/plan/gouges.h"
 #include "app/simulation/finish_report.h"
 #include "app/simulation/finish_work.h"
+#include "core/posts/post_file.h"
+#include "core/project/assets.h"
 #include "core/simulation/cut_mesh.h"
 
 #include <CLI/App.hpp>
@@ -15,14 +17,18 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace millwright::app {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Red where gouged, green within the tolerance, blue where more is left; gray where the tool does not fit.
 std::string left_ply(const FinishWork& work, double tolerance) {
@@ -37,26 +43,46 @@ std::string left_ply(const FinishWork& work, double tolerance) {
     return simulation::ply_of(work.part.corners, work.part.triangles, colors);
 }
 
+/// What the program is called with each shipped post, and with that which is chosen.
+std::set<std::string> program_names(const FinishOptions& options) {
+    const fs::path assets = project::assets_folder();
+    std::set<std::string> names{
+        "program." +
+        posts::read_post(project::post_path(options.post.post, fs::current_path(), assets)).extension};
+    for (const std::string& id : project::post_ids(assets)) {
+        names.insert("program." + posts::read_post(project::post_path(id, {}, assets)).extension);
+    }
+    return names;
+}
+
 int finish(const FinishOptions& options) {
-    expect_inputs_kept(options.out, {"program.ngc", "finish.json", "left.ply"}, program_kind, {options.file});
+    std::set<std::string> programs = program_names(options);
+    std::vector<std::string> names(programs.begin(), programs.end());
+    names.insert(names.end(), {"finish.json", "left.ply"});
+    expect_inputs_kept(options.out, names, program_kind, {options.file});
     const OutputFolder folder(options.out);
     WatchedWork watched;
     const FinishWork work = finish_work(options, watched.progress());
     watched.finish();
     const std::string gouges = finish_gouge_text(work);
+    const std::string rapids = finish_rapid_text(work);
     const std::string program = "program." + work.text.format.extension;
     OutputSet set{{{"finish.json", finish_report_text(options, work)},
                    {"left.ply", left_ply(work, options.left_tolerance)}},
                   {},
                   std::string(program_kind)};
-    if (gouges.empty() || options.allow_gouges) {
+    if (rapids.empty() && (gouges.empty() || options.allow_gouges)) {
         set.files.push_back({program, work.text.text.listing.text});
-    } else { // an older one would be taken for it
-        set.absent.push_back(program);
+        programs.erase(program);
     }
+    set.absent.assign(programs.begin(), programs.end()); // an older one would be taken for it
     write_outputs(options.out, set, options.file);
     print_notes(work.text);
     print_finish(work);
+    if (!rapids.empty()) {
+        throw GougeError(
+            rapids + "; " + program + " was not written", options.file, "choose a larger --link-clearance");
+    }
     if (!gouges.empty() && !options.allow_gouges) {
         throw GougeError(gouges + "; " + program + " was not written",
                          options.file,
@@ -124,10 +150,13 @@ void add_pass_options(CLI::App& command, FinishOptions& options) {
         .add_option(
             "--allowance",
             options.allowance,
-            "Thickness of the material over the mesh, mm: links come down fast to the clearance above "
-            "it (default: at the plunge rate all the way)")
+            "Thickness of the material around the mesh, mm: links travel fast at the clearance above it "
+            "(default: not known; below the top of the mesh at the feed rate)")
         ->check(not_below_zero());
-    command.add_option("--link-clearance", options.link_clearance, "Height of links above the mesh, mm")
+    command
+        .add_option("--link-clearance",
+                    options.link_clearance,
+                    "Height of links above the mesh and its allowance, mm")
         ->check(above_zero())
         ->capture_default_str();
 }

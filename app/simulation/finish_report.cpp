@@ -81,6 +81,8 @@ ReportJson path_json(const FinishWork& work) {
     json["points"] = figures.points;
     json["points_before_thinning"] = work.path.drops;
     json["cut_length_mm"] = project::rounded(figures.length);
+    json["allowance_mm"] =
+        work.settings.allowance ? ReportJson(project::rounded(*work.settings.allowance)) : ReportJson();
     json["holder_needs_tool_length_mm"] =
         work.holder_reach ? ReportJson(project::rounded(work.holder_reach->length)) : ReportJson();
     return json;
@@ -96,6 +98,8 @@ ReportJson check_json(const FinishOptions& options, const FinishWork& work) {
     json["within_percent"] = project::rounded(per_cent * check.within);
     json["largest_left"] = extreme_json(check.left, "distance_mm");
     json["deepest_gouge"] = extreme_json(check.gouge, "depth_mm");
+    json["rapid_moves_in_material"] =
+        work.settings.allowance ? ReportJson(check.rapids.size()) : ReportJson();
     json["resolution_mm"] = project::rounded(check.resolution);
     return json;
 }
@@ -152,6 +156,16 @@ void print_finish(const FinishWork& work) {
     fmt::print("deepest cut below the mesh: {}\n",
                check.gouge ? fixed(check.gouge->distance, 4) + " mm at " + mesh_place_text(check.gouge->place)
                            : std::string("none"));
+}
+
+std::string finish_rapid_text(const FinishWork& work) {
+    const auto& rapids = work.check.rapids;
+    if (rapids.empty()) {
+        return {};
+    }
+    return fmt::format("{} through the material of --allowance, the first at {}",
+                       counted(rapids.size(), "rapid move goes", "rapid moves go"),
+                       mesh_place_text(rapids.front().contact.place));
 }
 
 std::string finish_gouge_text(const FinishWork& work) {

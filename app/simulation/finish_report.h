@@ -12,6 +12,9 @@ namespace millwright::app {
 
 void print_finish(const FinishWork& work);
 
+/// "2 rapid moves go through the material of --allowance, the first at 1 2 3"; empty if none does.
+[[nodiscard]] std::string finish_rapid_text(const FinishWork& work);
+
 /// "the program cuts up to 0.1 mm below the mesh at 1 2 3"; empty if it does not cut deeper than the chord
 /// tolerance and what is written of a position allow.
 [[nodiscard]] std::string finish_gouge_text(const FinishWork& work);

@@ -7,16 +7,17 @@
 #include "core/base/units.h"
 #include "core/kinematics/machine_file.h"
 #include "core/mesh_finish/finish_program.h"
+#include "core/plan/named_tool.h"
 #include "core/plan/plot_time.h"
 #include "core/project/assets.h"
-#include "core/project/tool_file.h"
 #include "core/project/tool_settings.h"
 #include "core/simulation/resolution.h"
-#include "core/simulation/spec_text.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <utility>
 
@@ -28,6 +29,13 @@ namespace fs = std::filesystem;
 
 Vec3 vector_of(const std::vector<double>& numbers, const Vec3& otherwise) {
     return numbers.empty() ? otherwise : Vec3(numbers.at(0), numbers.at(1), numbers.at(2));
+}
+
+/// Of the mesh and what is made of it; the inspection ends before the surface of the check is made.
+std::size_t memory_of(const exchange::TriangleMesh& mesh) {
+    const std::size_t triangles = mesh.triangles.size();
+    return mesh_finish::DropTree::memory(triangles, mesh.points.size()) +
+           std::max(mesh_finish::inspection_memory(triangles), plan::finish_check_memory(triangles));
 }
 
 exchange::MeshFile placed_mesh(const FinishOptions& options, const Progress& progress) {
@@ -43,8 +51,7 @@ exchange::MeshFile placed_mesh(const FinishOptions& options, const Progress& pro
         diagnostic.place.file = options.file;
         throw Error(std::move(diagnostic));
     }
-    const std::size_t wanted =
-        mesh_finish::DropTree::memory(found.mesh.triangles.size(), found.mesh.points.size());
+    const std::size_t wanted = memory_of(found.mesh);
     if (const auto free = free_memory(); free && wanted > *free) {
         throw Error(fmt::format("{} take {} MB, and {} MB of memory are free",
                                 counted(found.mesh.triangles.size(), "triangle"),
@@ -75,30 +82,29 @@ bool turn_up(exchange::TriangleMesh& mesh, const mesh_finish::MeshInspection& fo
 }
 
 /// The tool, and what it changes in machine and program.
-FinishTool
-tool_of(const FinishOptions& options, kinematics::MachineModel& machine, program::Program& program) {
-    const simulation::ToolText parsed = simulation::parse_tool(options.tool);
-    if (parsed.body) {
-        const toolpath::ProfileShape& shape = parsed.body->shape();
-        program.cutters.push_back({.number = parsed.number.value_or(0),
+FinishTool tool_of(const FinishOptions& options,
+                   kinematics::MachineModel& machine,
+                   program::Program& program,
+                   std::vector<std::string>& remarks) {
+    const plan::NamedTool named = plan::named_tool(options.tool, machine, remarks);
+    if (named.machine) {
+        machine = kinematics::MachineModel(*named.machine);
+    }
+    if (named.input) {
+        program.tool = project::program_tool(*named.input, machine);
+        if (const auto cutter = project::program_cutter(*named.input)) {
+            program.cutters.push_back(*cutter);
+        }
+    } else {
+        const toolpath::ProfileShape& shape = named.body.shape();
+        program.cutters.push_back({.number = named.number.value_or(0),
                                    .diameter = 2.0 * shape.radius,
                                    .corner_radius = shape.corner});
-        if (parsed.number) {
-            program.tool = program::ProgramTool{.number = *parsed.number};
+        if (named.number) {
+            program.tool = program::ProgramTool{.number = *named.number};
         }
-        return {*parsed.body, std::nullopt, options.tool};
     }
-    const project::ToolInput input = project::read_tool(parsed.file);
-    const toolpath::Tool tool = project::tool_of(input);
-    if (!tool.cutter) {
-        throw Error("the tool is a point, which removes nothing", parsed.file, "give it a cutter");
-    }
-    machine = project::machine_with(input, machine);
-    program.tool = project::program_tool(input, machine);
-    if (const auto cutter = project::program_cutter(input)) {
-        program.cutters.push_back(*cutter);
-    }
-    return {*tool.cutter, tool.holder, project::tool_text(input)};
+    return {named.body, named.holder, named.text};
 }
 
 double step_of(const FinishOptions& options, const toolpath::ProfileShape& tool) {
@@ -113,19 +119,24 @@ double step_of(const FinishOptions& options, const toolpath::ProfileShape& tool)
     return mesh_finish::step_for_scallop(tool.corner, options.scallop);
 }
 
-mesh_finish::FinishSettings settings_of(const FinishOptions& options, const toolpath::Profile& tool) {
+mesh_finish::FinishSettings settings_of(const FinishOptions& options, const FinishTool& tool) {
     const Vec3 axis = vector_of(options.axis, Vec3::UnitZ());
     if (!(axis.norm() > 0.0)) {
         throw UsageError("--axis 0,0,0 is no direction", {}, "write --axis 0,0,1, away from the part");
     }
+    std::optional<mesh_finish::FinishHolder> holder;
+    if (tool.holder) {
+        holder = {tool.holder->shape().radius, tool.body.shape().top};
+    }
     return {.axis = axis.normalized(),
             .direction = from_degrees(options.direction_deg),
-            .step_over = step_of(options, tool.shape()),
+            .step_over = step_of(options, tool.body.shape()),
             .tolerance = options.tolerance,
             .overrun = options.overrun,
             .across = !options.one_way,
             .link_clearance = options.link_clearance,
-            .allowance = options.allowance};
+            .allowance = options.allowance,
+            .holder = holder};
 }
 
 void expect_room_for_holder(const FinishWork& work) {
@@ -176,10 +187,16 @@ FinishWork finish_work(const FinishOptions& options, const Progress& progress) {
         project::machine_path(options.machine, fs::current_path(), project::assets_folder());
     kinematics::MachineModel machine = kinematics::read_machine(machine_file);
     program::Program program;
-    FinishTool tool = tool_of(options, machine, program);
-    const mesh_finish::FinishSettings settings = settings_of(options, tool.body);
+    std::vector<std::string> remarks;
+    FinishTool tool = tool_of(options, machine, program, remarks);
+    const mesh_finish::FinishSettings settings = settings_of(options, tool);
+    if (!settings.allowance) {
+        remarks.emplace_back(
+            "material above the mesh is not known: links below the top of the mesh are at the "
+            "feed rate, and nothing must be higher than the clearance above it (--allowance)");
+    }
     FinishWork work{.mesh = placed_mesh(options, progress.part(0.0, 0.05)),
-                    .remarks = {},
+                    .remarks = std::move(remarks),
                     .machine = std::move(machine),
                     .tool = std::move(tool),
                     .settings = settings,
@@ -189,9 +206,11 @@ FinishWork finish_work(const FinishOptions& options, const Progress& progress) {
                     .part = {},
                     .check = {}};
     exchange::TriangleMesh& mesh = work.mesh.mesh;
-    work.memory = mesh_finish::DropTree::memory(mesh.triangles.size(), mesh.points.size());
+    work.memory = memory_of(mesh);
     mesh_finish::MeshInspection found = mesh_finish::inspect(mesh, progress);
-    work.remarks = mesh_finish::remarks_of(found);
+    for (std::string& remark : mesh_finish::remarks_of(found)) {
+        work.remarks.push_back(std::move(remark));
+    }
     if (turn_up(mesh, found, settings.axis)) {
         found = mesh_finish::inspect(mesh, progress);
         work.remarks.emplace_back("the triangles face away from the tool and are turned over");
@@ -200,9 +219,9 @@ FinishWork finish_work(const FinishOptions& options, const Progress& progress) {
     const mesh_finish::DropTree tree = mesh_finish::drop_tree(mesh, found.open, frame, progress);
     const mesh_finish::CutterOutline outline(work.tool.body);
     work.path = mesh_finish::finish(tree, outline, settings, progress.part(0.05, 0.3));
-    if (work.tool.holder) {
-        work.holder_reach = mesh_finish::holder_reach(
-            tree, frame, work.path, work.tool.holder->shape().radius, progress.part(0.3, 0.35));
+    if (settings.holder) {
+        work.holder_reach =
+            mesh_finish::holder_reach(tree, frame, work.path, *settings.holder, progress.part(0.3, 0.35));
         expect_room_for_holder(work);
     }
     make_program(options, work, progress.part(0.35, 0.55));
@@ -214,6 +233,7 @@ FinishWork finish_work(const FinishOptions& options, const Progress& progress) {
                                      .machine = work.machine,
                                      .cutter = work.tool.body,
                                      .overrun = options.overrun,
+                                     .allowance = options.allowance,
                                      .tolerance = options.left_tolerance,
                                      .most_bytes = simulation::field_memory(options.memory_mb)},
                                     progress.part(0.55, 1.0));

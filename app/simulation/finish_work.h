@@ -63,7 +63,7 @@ struct FinishWork {
     double seconds = 0.0; ///< that the machine takes by the planner
     plan::PartSurface part;
     plan::FinishCheck check;
-    std::size_t memory = 0; ///< bytes of mesh and tree
+    std::size_t memory = 0; ///< bytes of mesh, tree and what is compared
 };
 
 /// Throws Error with the first thing that is wrong, UsageError for options that do not fit together;

@@ -33,6 +33,18 @@ CutterOutline::CutterOutline(const toolpath::Profile& body) {
     largest_corner_angle_ = 0.5 * pi - shape.half_angle;
 }
 
+CutterOutline CutterOutline::grown(double by) const {
+    CutterOutline more = *this;
+    more.corner_ += by;
+    more.radius_ += by;
+    more.bottom_ -= by;
+    const double s = std::cos(largest_corner_angle_);
+    const double c = std::sin(largest_corner_angle_);
+    more.flank_from_ = std::min(flat_ + more.corner_ * c, more.radius_);
+    more.flank_height_ = more.bottom_ + more.corner_ * (1.0 - s);
+    return more;
+}
+
 double CutterOutline::height(double rho) const {
     const bool sharp_rim = !(corner_ > 0.0) && !(flank_slope_ < infinity);
     if (rho <= flat_ || sharp_rim) {

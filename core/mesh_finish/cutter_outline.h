@@ -21,6 +21,9 @@ class CutterOutline {
 public:
     explicit CutterOutline(const toolpath::Profile& body);
 
+    /// All that is nearer to it than `by`; the tip stays where it is.
+    [[nodiscard]] CutterOutline grown(double by) const;
+
     [[nodiscard]] double radius() const { return radius_; }
     /// Every point of the boundary lies on a ball of this radius inside the cutter; 0 of one with an edge.
     [[nodiscard]] double corner() const { return corner_; }

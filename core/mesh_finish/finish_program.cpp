@@ -118,7 +118,7 @@ public:
               program::AxisSet::only(retract.axis));
         rapid(over, MoveRole::approach, all_);
         rapid(above, MoveRole::approach, all_);
-        descend(tip, path_.safe_level, MoveRole::approach);
+        descend(tip, path_.passes.front().plunge_level, MoveRole::approach);
     }
 
     void pass(std::size_t n) {
@@ -126,8 +126,13 @@ public:
         if (n > 0) {
             const FinishPass& before = path_.passes[n - 1];
             rapid(at(lifted(before.tips.back(), pass.link_level)), MoveRole::link, all_);
-            rapid(at(lifted(pass.tips.front(), pass.link_level)), MoveRole::link, all_);
-            descend(pass.tips.front(), pass.link_level, MoveRole::link);
+            const Vec3 over = lifted(pass.tips.front(), pass.link_level);
+            if (path_.knows_material || pass.link_level >= path_.safe_level) {
+                rapid(at(over), MoveRole::link, all_);
+                descend(pass.tips.front(), pass.plunge_level, MoveRole::link);
+            } else {
+                feed(over, MoveRole::link, settings_.cutting_feed);
+            }
         }
         feed(pass.tips.front(), MoveRole::plunge, settings_.plunge_feed);
         for (std::size_t k = 1; k < pass.tips.size(); ++k) {
@@ -155,10 +160,11 @@ public:
     }
 
 private:
-    /// From `level` straight down to above the material, where its thickness is known.
+    /// Straight down to above the material, where its thickness is known.
     void descend(const Vec3& tip, double level, MoveRole role) {
-        if (path_.plunge_height && tip.dot(path_.axis) + *path_.plunge_height < level) {
-            rapid(at(tip + *path_.plunge_height * path_.axis), role, all_);
+        const AxisPositions to = at(lifted(tip, level));
+        if (path_.knows_material && (rounded(to) - here()).cwiseAbs().maxCoeff() > 0.0) {
+            rapid(to, role, all_);
         }
     }
     [[nodiscard]] Vec3 lifted(const Vec3& tip, double level) const {

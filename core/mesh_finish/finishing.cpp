@@ -45,6 +45,7 @@ void check(const CutterOutline& cutter, const FinishSettings& settings) {
            "the clearance of links must be above 0 mm");
     expect(!settings.allowance || lies_between(*settings.allowance, 0.0, largest_mm),
            "the allowance must not be negative");
+    expects(!settings.holder || settings.holder->radius > 0.0, "a holder has a radius");
     expect(cutter.corner() > 0.0 || cutter.flat() > 0.0,
            "a cutter with a sharp point cannot finish a mesh; give its tip a radius or a flat end");
     expects(std::isfinite(settings.direction) && is_finite(settings.axis) &&
@@ -59,7 +60,7 @@ struct Lane {
     double gap = 0.0;     ///< of the others
 };
 
-/// Parallel lines over a box, one way and back, with those between them where `between`.
+/// Parallel lines over a box, all the same way, with those between them where `between`.
 std::vector<Lane> lanes_over(const Eigen::AlignedBox2d& box, int along, double step, bool between) {
     const int across = 1 - along;
     const Vec2 size = box.sizes();
@@ -80,31 +81,44 @@ std::vector<Lane> lanes_over(const Eigen::AlignedBox2d& box, int along, double s
                   .between = n % parts != 0,
                   .gap = size[across] / std::max(lines - 1, 1)};
         lane.line.from[across] += share * size[across];
-        if (n % 2 == 1) {
-            lane.line.from[along] = box.max()[along];
-            lane.line.along = -lane.line.along;
-        }
         lanes.push_back(lane);
     }
     return lanes;
 }
 
 struct LinePasses {
-    std::vector<TracedRun> runs;
-    std::vector<PassLine> lines; ///< one per run
+    PassLine line;
+    std::vector<TracedRun> runs; ///< in their order along the line
     std::int64_t drops = 0;
+
+    [[nodiscard]] Vec2 at(const TracedPoint& point) const { return line.from + point.s * line.along; }
+
+    void turn() {
+        line.from += line.length * line.along;
+        line.along = -line.along;
+        std::reverse(runs.begin(), runs.end());
+        for (TracedRun& run : runs) {
+            std::reverse(run.begin(), run.end());
+            for (TracedPoint& point : run) {
+                point.s = line.length - point.s;
+            }
+        }
+    }
 };
+
+CutterOutline holder_outline(double radius) {
+    return CutterOutline(toolpath::Profile({.flat = radius, .radius = radius}));
+}
 
 class Finisher {
 public:
     Finisher(const DropTree& tree, const CutterOutline& cutter, const FinishSettings& settings)
         : tree_(tree), cutter_(cutter), settings_(settings),
-          part_from_passes_(pass_frame(settings.axis, settings.direction).transpose()) {
+          part_from_passes_(pass_frame(settings.axis, settings.direction).transpose()),
+          spare_(settings.allowance.value_or(0.0) + settings.link_clearance) {
         path_.axis = settings.axis;
-        if (settings.allowance) {
-            path_.plunge_height = *settings.allowance + settings.link_clearance;
-        }
-        path_.safe_level = tree.box().max().z() + settings.link_clearance;
+        path_.knows_material = settings.allowance.has_value();
+        path_.safe_level = tree.box().max().z() + spare_;
     }
 
     /// Adds the passes along axis `along` of the frame.
@@ -120,10 +134,13 @@ public:
             found[at] = of_line(lines[at], along == 1);
             progress.report(static_cast<double>(++done) / static_cast<double>(lines.size()));
         });
-        for (const LinePasses& of : found) {
+        for (LinePasses& of : found) {
             path_.drops += of.drops;
-            for (std::size_t n = 0; n < of.runs.size(); ++n) {
-                add(of.runs[n], of.lines[n], along == 1);
+            if (ends_nearer(of)) {
+                of.turn();
+            }
+            for (const TracedRun& run : of.runs) {
+                add(run, of, along == 1);
             }
         }
     }
@@ -149,12 +166,11 @@ private:
     }
 
     [[nodiscard]] LinePasses of_line(const Lane& lane, bool steep_only) const {
-        LinePasses found;
+        LinePasses found{.line = lane.line, .runs = {}};
         for (const TracedRun& run : traced(tree_, cutter_, lane.line, settings_.tolerance)) {
             found.drops += std::ssize(run);
             for (const TracedRun& part : needed_parts(run, lane, steep_only)) {
                 found.runs.push_back(thinned(part, 0.5 * settings_.tolerance));
-                found.lines.push_back(lane.line);
             }
         }
         return found;
@@ -176,19 +192,54 @@ private:
         return parts_of(run, needed, settings_.step_over, 2.0 * cutter_.radius());
     }
 
-    void add(const TracedRun& run, const PassLine& line, bool is_across) {
+    /// To where the pass before ended, than the beginning.
+    [[nodiscard]] bool ends_nearer(const LinePasses& of) const {
+        return !path_.passes.empty() && !of.runs.empty() &&
+               (of.at(of.runs.back().back()) - last_).norm() <
+                   (of.at(of.runs.front().front()) - last_).norm();
+    }
+
+    /// For the tip on the way between two places: link_clearance above mesh and allowance, of the holder too.
+    [[nodiscard]] double link_level(const Vec2& from, const Vec2& to, double tip) const {
+        const double around = settings_.allowance.value_or(0.0);
+        double level = std::max(tip, tree_.highest_near(from, to, cutter_.radius() + around).value_or(tip));
+        if (const auto& holder = settings_.holder) {
+            const auto top = tree_.highest_near(from, to, holder->radius + around);
+            level = std::max(level, top.value_or(level) - holder->tool_length);
+        }
+        return level + spare_;
+    }
+
+    /// The lowest over a place that is link_clearance above the allowance, which is beside a wall, too.
+    [[nodiscard]] double plunge_level(const Vec2& at, double tip) const {
+        double level = tip;
+        const auto keep_off = [&](const CutterOutline& outline, double length) {
+            const auto rests = tree_.drop(outline.grown(*settings_.allowance), at);
+            level = std::max(level, rests ? rests->z - length : level);
+        };
+        keep_off(cutter_, 0.0);
+        if (const auto& holder = settings_.holder) {
+            keep_off(holder_outline(holder->radius), holder->tool_length);
+        }
+        return level + settings_.link_clearance;
+    }
+
+    void add(const TracedRun& run, const LinePasses& of, bool is_across) {
         FinishPass pass;
         pass.is_across = is_across;
         for (const TracedPoint& point : run) {
-            const Vec2 at = line.from + point.s * line.along;
+            const Vec2 at = of.at(point);
             pass.tips.emplace_back(part_from_passes_ * Vec3(at.x(), at.y(), point.drop.z));
             pass.contacts.emplace_back(part_from_passes_ * point.drop.contact);
         }
-        const Vec2 begin = line.from + run.front().s * line.along;
+        const Vec2 begin = of.at(run.front());
         const Vec2 before = path_.passes.empty() ? begin : last_;
-        const double top = tree_.highest_near(before, begin, cutter_.radius()).value_or(run.front().drop.z);
-        pass.link_level = std::max(top, run.front().drop.z) + settings_.link_clearance;
-        last_ = line.from + run.back().s * line.along;
+        const double tip = run.front().drop.z;
+        pass.link_level = link_level(before, begin, std::max(tip, last_tip_));
+        const double highest = path_.passes.empty() ? path_.safe_level : pass.link_level;
+        pass.plunge_level = path_.knows_material ? std::min(plunge_level(begin, tip), highest) : highest;
+        last_ = of.at(run.back());
+        last_tip_ = run.back().drop.z;
         path_.passes.push_back(std::move(pass));
     }
 
@@ -197,7 +248,9 @@ private:
     const FinishSettings& settings_;
     Mat3 part_from_passes_;
     FinishPath path_;
+    double spare_; ///< over the mesh, where moves are fast
     Vec2 last_ = Vec2::Zero();
+    double last_tip_ = -infinity;
 };
 
 } // namespace
@@ -255,26 +308,33 @@ FinishPath finish(const DropTree& tree,
 std::optional<HolderReach> holder_reach(const DropTree& tree,
                                         const Mat3& frame,
                                         const FinishPath& path,
-                                        double holder_radius,
+                                        const FinishHolder& holder,
                                         const Progress& progress) {
-    const CutterOutline holder(toolpath::Profile({.flat = holder_radius, .radius = holder_radius}));
-    const double step = 0.1 * holder_radius; // of looks along a move
+    const CutterOutline outline = holder_outline(holder.radius);
+    const double step = 0.1 * holder.radius; // of looks along a move
     std::vector<HolderReach> found(path.passes.size());
     parallel_for(std::ssize(path.passes), 1, [&](std::ptrdiff_t n) {
         const auto at = static_cast<std::size_t>(n);
         const std::vector<Vec3>& tips = path.passes[at].tips;
-        progress.check();
-        for (std::size_t k = 0; k < tips.size(); ++k) {
-            const Vec3 from = frame * tips[k > 0 ? k - 1 : 0];
-            const Vec3 to = frame * tips[k];
+        const auto look_along = [&](const Vec3& from, const Vec3& to, double at_least) {
             const int looks = std::max(1, static_cast<int>(std::ceil((to - from).norm() / step)));
             for (int look = 1; look <= looks; ++look) {
                 const Vec3 tip = from + static_cast<double>(look) / looks * (to - from);
-                const std::optional<Drop> rests = tree.drop(holder, tip.head<2>());
-                if (rests && rests->z - tip.z() > found[at].length) {
+                const std::optional<Drop> rests = tree.drop(outline, tip.head<2>());
+                if (rests && rests->z - tip.z() > std::max(found[at].length, at_least)) {
                     found[at] = {rests->z - tip.z(), Vec3(frame.transpose() * tip)};
                 }
             }
+        };
+        progress.check();
+        for (std::size_t k = 0; k < tips.size(); ++k) {
+            look_along(frame * tips[k > 0 ? k - 1 : 0], frame * tips[k], 0.0);
+        }
+        if (at > 0) {
+            Vec3 from = frame * path.passes[at - 1].tips.back();
+            Vec3 to = frame * tips.front();
+            from.z() = to.z() = path.passes[at].link_level;
+            look_along(from, to, holder.tool_length);
         }
     });
     const auto longest =

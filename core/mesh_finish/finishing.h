@@ -15,6 +15,12 @@
 
 namespace millwright::mesh_finish {
 
+/// A cylinder that begins `tool_length` behind the tip.
+struct FinishHolder {
+    double radius = 0.0;
+    double tool_length = 0.0;
+};
+
 struct FinishSettings {
     Vec3 axis = Vec3::UnitZ(); ///< unit, from the tip towards the spindle, on the part
     double direction = 0.0;    ///< of the passes in the plane square to the axis, from the part's X
@@ -23,10 +29,11 @@ struct FinishSettings {
     double overrun = 0.0;      ///< of the tool's axis beyond the mesh's box, seen along the axis
     bool across = true;        ///< with passes square to the first ones on steep places
     bool between = true; ///< with passes between two others where the way dips, of a cutter with a corner
-    double link_clearance = 2.0; ///< of links above the mesh
-    /// Thickness of the material over the mesh; links come down fast to link_clearance above it. Nullopt: not
-    /// known, and they come down at the plunge rate.
+    double link_clearance = 2.0; ///< of links above the mesh and the material over it
+    /// Thickness of the material around the mesh. Nullopt: not known, and no move but straight up is fast
+    /// that is not above the whole mesh.
     std::optional<double> allowance{};
+    std::optional<FinishHolder> holder{}; ///< links are above the mesh with it, too
 };
 
 /// Of parallel passes with the step between them that leaves no ridge higher than `scallop` where a cutter of
@@ -38,17 +45,18 @@ struct FinishPass {
     std::vector<Vec3> tips;     ///< on the part
     std::vector<Vec3> contacts; ///< one per tip
     bool is_across = false;
-    /// Of the tip from the pass before to this one, at least link_clearance above the mesh: how far along the
-    /// axis from the part's origin. Of the first pass the one above its own beginning.
+    /// Of the tip from the pass before to this one, at least link_clearance above mesh and allowance: how far
+    /// along the axis from the part's origin. Of the first pass the one above its own beginning.
     double link_level = 0.0;
+    double plunge_level = 0.0; ///< from where on the tool comes down at the plunge rate, as link_level
 };
 
 struct FinishPath {
     Vec3 axis = Vec3::UnitZ();
-    std::vector<FinishPass> passes;        ///< in their order
-    double safe_level = 0.0;               ///< above all of the mesh, along the axis from the part's origin
-    std::optional<double> plunge_height{}; ///< over a pass's first tip, from where on the tool plunges
-    std::int64_t drops = 0; ///< points at which the cutter was lowered and kept before thinning
+    std::vector<FinishPass> passes; ///< in their order
+    double safe_level = 0.0;        ///< above mesh and allowance, along the axis from the part's origin
+    bool knows_material = false;    ///< with an allowance; else only moves up are fast below the safe level
+    std::int64_t drops = 0;         ///< points at which the cutter was lowered and kept before thinning
 };
 
 /// The rotation from part coordinates to those of the passes: +Z along the axis, +X along the first passes.
@@ -70,6 +78,7 @@ struct FinishPath {
 
 /// How far the holder has to stay behind the tip on the path, so that it touches the mesh nowhere: the least
 /// length of the cutter from tip to holder, mm, with the place of the tip. Nothing where it never comes near.
+/// Links, which are higher for a shorter cutter, count where the holder touches on them.
 struct HolderReach {
     double length = 0.0;
     Vec3 tip = Vec3::Zero();
@@ -77,7 +86,7 @@ struct HolderReach {
 [[nodiscard]] std::optional<HolderReach> holder_reach(const DropTree& tree,
                                                       const Mat3& frame,
                                                       const FinishPath& path,
-                                                      double holder_radius,
+                                                      const FinishHolder& holder,
                                                       const Progress& progress);
 
 } // namespace millwright::mesh_finish

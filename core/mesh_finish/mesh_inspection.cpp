@@ -110,6 +110,10 @@ MeshInspection inspect(const exchange::TriangleMesh& mesh, const Progress& progr
     return found;
 }
 
+std::size_t inspection_memory(std::size_t triangles) {
+    return 3 * triangles * sizeof(Edge);
+}
+
 std::vector<std::string> remarks_of(const MeshInspection& found) {
     std::vector<std::string> remarks;
     const auto add = [&](const OddPlace& kind, std::string_view one, std::string_view several) {

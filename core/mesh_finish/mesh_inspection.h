@@ -5,6 +5,7 @@
 #include "core/base/progress.h"
 #include "core/exchange/triangle_mesh.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ struct MeshInspection {
 
 /// Throws Cancelled.
 [[nodiscard]] MeshInspection inspect(const exchange::TriangleMesh& mesh, const Progress& progress);
+
+/// Bytes that it takes of a mesh of so many triangles while it runs.
+[[nodiscard]] std::size_t inspection_memory(std::size_t triangles);
 
 /// A sentence for each kind that is there.
 [[nodiscard]] std::vector<std::string> remarks_of(const MeshInspection& found);

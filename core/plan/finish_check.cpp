@@ -3,7 +3,9 @@
 #include "core/base/numbers.h"
 #include "core/base/parallel.h"
 #include "core/base/units.h"
+#include "core/kinematics/forward.h"
 #include "core/mesh_finish/cutter_outline.h"
+#include "core/simulation/removal.h"
 #include "core/simulation/resolution.h"
 #include "core/toolpath/cutter.h"
 
@@ -34,19 +36,58 @@ std::vector<Vec3> touching_tips(const toolpath::Profile& cutter, const Vec3& poi
 /// curved surface are higher than its tangent plane by the square of their size.
 constexpr double usual_bite = 1e-3;
 
-simulation::BoxStock stock_around(const PartSurface& part) {
+simulation::BoxStock stock_around(const PartSurface& part, double allowance) {
     Box3 box;
     for (const Vec3& corner : part.corners) {
         box.extend(corner);
     }
     constexpr double spare = 0.02; // of the longest edge
-    const Vec3 more = Vec3::Constant(std::max(spare * box.sizes().maxCoeff(), 1e-3));
+    const Vec3 more = Vec3::Constant(std::max(spare * box.sizes().maxCoeff(), 1e-3) + allowance);
     return {box.min() - more, box.max() + more};
 }
 
 void keep_farthest(std::optional<FinishExtreme>& farthest, double distance, const Vec3& place) {
     if (distance > 0.0 && (!farthest || distance > farthest->distance)) {
         farthest = FinishExtreme{distance, place};
+    }
+}
+
+/// Whether the cutter comes nearer to the mesh than the allowance between two places of its tip, in the
+/// tree's coordinates.
+bool enters_allowance(const FinishCheckInput& input,
+                      const mesh_finish::CutterOutline& grown,
+                      const Vec3& from,
+                      const Vec3& to) {
+    constexpr double most_looks = 1e4;
+    const double step = 0.1 * grown.radius();
+    const int looks = static_cast<int>(std::clamp(std::ceil((to - from).norm() / step), 1.0, most_looks));
+    for (int look = 0; look <= looks; ++look) {
+        const Vec3 tip = from + static_cast<double>(look) / looks * (to - from);
+        const auto rests = input.tree.drop(grown, tip.head<2>());
+        if (rests && rests->z > tip.z() + simulation::contact_depth) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void add_rapids(const FinishCheckInput& input,
+                const simulation::Simulation& found,
+                const Progress& progress,
+                FinishCheck& check) {
+    const auto grown = mesh_finish::CutterOutline(input.cutter).grown(*input.allowance);
+    const auto tip_of = [&](const kinematics::AxisPositions& axes) {
+        return Vec3(input.frame * kinematics::forward(input.machine, axes).tip);
+    };
+    for (const simulation::Finding& finding : found.findings) {
+        progress.check();
+        if (finding.kind == simulation::FindingKind::rapid_in_stock &&
+            enters_allowance(input,
+                             grown,
+                             tip_of(program::position_before(input.program, finding.block)),
+                             tip_of(input.program.blocks[static_cast<std::size_t>(finding.block)].target))) {
+            check.rapids.push_back(finding);
+        }
     }
 }
 
@@ -91,6 +132,11 @@ bool cutter_fits(const FinishCheckInput& input, const simulation::PartPoint& at,
     });
 }
 
+std::size_t finish_check_memory(std::size_t triangles) {
+    return part_surface_memory(triangles) +
+           triangles * (sizeof(simulation::Deviation) + 2 * sizeof(std::uint8_t));
+}
+
 FinishCheck check_finish(const FinishCheckInput& input, const Progress& progress) {
     FinishCheck check;
     const std::vector<simulation::PartPoint>& points = input.part.points;
@@ -106,7 +152,7 @@ FinishCheck check_finish(const FinishCheckInput& input, const Progress& progress
         fitting[at] = cutter_fits(input, points[at], bite) ? 1 : 0;
     });
     check.fitting.assign(fitting.begin(), fitting.end());
-    const simulation::BoxStock stock = stock_around(input.part);
+    const simulation::BoxStock stock = stock_around(input.part, input.allowance.value_or(0.0));
     check.resolution = simulation::usual_resolution(Box3(stock.low, stock.high), input.most_bytes);
     const simulation::SimulationInput cutting{
         .program = input.program,
@@ -117,6 +163,9 @@ FinishCheck check_finish(const FinishCheckInput& input, const Progress& progress
         .most_bytes = input.most_bytes};
     progress.report(0.1, "cutting the mesh's box");
     const simulation::Simulation found = simulation::simulate(cutting, progress.part(0.1, 0.6));
+    if (input.allowance) {
+        add_rapids(input, found, progress, check);
+    }
     progress.report(0.6, "comparing with the mesh");
     check.deviations = simulation::deviations(cutting, found, points, progress.part(0.6, 1.0));
     add_figures(input.part, input.tolerance, check);

@@ -28,6 +28,8 @@ struct FinishCheck {
     std::vector<simulation::Deviation> deviations; ///< one per point of the surface
     std::vector<bool> fitting;
     double resolution = 0.0; ///< of the field
+    /// Rapid moves through the allowance where nothing had cut it; none without one.
+    std::vector<simulation::Finding> rapids;
 };
 
 struct FinishCheckInput {
@@ -37,7 +39,8 @@ struct FinishCheckInput {
     const program::Program& program;
     const kinematics::MachineModel& machine;
     toolpath::Profile cutter;
-    double overrun = 0.0; ///< of the passes beyond the mesh's box
+    double overrun = 0.0;              ///< of the passes beyond the mesh's box
+    std::optional<double> allowance{}; ///< thickness of the material around the mesh; nullopt: not known
     double tolerance = 0.02;
     std::size_t most_bytes = 1UL << 30; ///< of the simulation's field
 };
@@ -47,7 +50,11 @@ struct FinishCheckInput {
 /// tried: its middle, or its rim at one of 16 places.
 [[nodiscard]] bool cutter_fits(const FinishCheckInput& input, const simulation::PartPoint& at, double bite);
 
-/// Cut from a box around the mesh that is a little higher. Throws Error as simulate(); Cancelled.
+/// Cut from a box around the mesh and the allowance that is a little higher. Of rapid moves in that box those
+/// count that come nearer to the mesh than the allowance. Throws Error as simulate(); Cancelled.
 [[nodiscard]] FinishCheck check_finish(const FinishCheckInput& input, const Progress& progress);
+
+/// Bytes for the surface of so many triangles and what is found on it, without the simulation's field.
+[[nodiscard]] std::size_t finish_check_memory(std::size_t triangles);
 
 } // namespace millwright::plan

@@ -32,7 +32,8 @@ NamedTool named_tool(const std::string& text,
             project::tool_text(input),
             std::make_shared<const kinematics::MachineModel>(project::machine_with(input, machine)),
             std::nullopt,
-            tool.holder};
+            tool.holder,
+            input};
 }
 
 } // namespace millwright::plan

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/kinematics/machine_model.h"
+#include "core/project/tool_input.h"
 #include "core/toolpath/profile.h"
 
 #include <memory>
@@ -17,6 +18,7 @@ struct NamedTool {
     std::string text;
     std::shared_ptr<const kinematics::MachineModel> machine{}; ///< with its gauge length; null: as it is
     std::optional<toolpath::Profile> shank{}, holder{};
+    std::optional<project::ToolInput> input{}; ///< of a tool file
 };
 
 /// [N=]SPEC or [N=]FILE, as core/simulation/spec_text.h has it; a tool file is read. Throws Error. A warning

@@ -16,6 +16,8 @@ namespace {
 using simulation::PartPoint;
 using Triangle = std::array<Vec3, 3>;
 
+constexpr int divided_points = 20'000; // about, of a mesh of few triangles
+
 double area_of(const Triangle& t) {
     return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
 }
@@ -99,9 +101,13 @@ part_surface(const exchange::TriangleMesh& mesh, const std::string& name, const 
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
         area += 0.5 * mesh.doubled_area(n).norm();
     }
-    constexpr double about_points = 20'000.0;
-    const double longest = 2.0 * std::sqrt(area / about_points);
+    const double longest = 2.0 * std::sqrt(area / divided_points);
     PartSurface part;
+    const std::size_t room = mesh.triangles.size() + divided_points;
+    part.points.reserve(room);
+    part.triangles.reserve(room);
+    part.corners.reserve(3 * room);
+    part.point_of_corner.reserve(3 * room);
     part.text = fmt::format("{}, {} triangles", name, mesh.triangles.size());
     part.closed = true;
     for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
@@ -109,6 +115,12 @@ part_surface(const exchange::TriangleMesh& mesh, const std::string& name, const 
         add_divided({mesh.corner(n, 0), mesh.corner(n, 1), mesh.corner(n, 2)}, longest, part);
     }
     return part;
+}
+
+std::size_t part_surface_memory(std::size_t triangles) {
+    constexpr std::size_t of_triangle =
+        sizeof(PartPoint) + sizeof(std::array<int, 3>) + 3 * (sizeof(Vec3) + sizeof(int));
+    return (triangles + divided_points) * of_triangle;
 }
 
 std::vector<std::array<std::uint8_t, 3>> deviation_colors(

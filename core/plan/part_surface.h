@@ -7,6 +7,7 @@
 #include "core/simulation/comparison.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -31,6 +32,9 @@ struct PartSurface {
 /// The same of triangles at hand; `name` is for people. Throws Cancelled.
 [[nodiscard]] PartSurface
 part_surface(const exchange::TriangleMesh& mesh, const std::string& name, const Progress& progress);
+
+/// Bytes that the surface of so many triangles takes.
+[[nodiscard]] std::size_t part_surface_memory(std::size_t triangles);
 
 /// Red: gouged beyond `tolerance` mm; green: within; blue: material left beyond it. One per corner.
 [[nodiscard]] std::vector<std::array<std::uint8_t, 3>> deviation_colors(

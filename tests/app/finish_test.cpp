@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -147,6 +148,54 @@ TEST_F(FinishCommand, RefusesATooShortToolUnderAHolder) {
     EXPECT_EQ(ended.exit_code, 1);
     EXPECT_THAT(ended.err, HasSubstr("the holder meets the mesh"));
     EXPECT_THAT(ended.err, HasSubstr("20.000 mm are needed"));
+}
+
+TEST_F(FinishCommand, TravelsAboveTheMaterialThatIsNamed) {
+    const std::string mesh = written("relief.stl", relief());
+    const auto ended_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> options{"--tool", "ball:2", "--step-over", "1", "--one-way"};
+        options.insert(options.end(), more.begin(), more.end());
+        const Ended ended = finish(mesh, options);
+        EXPECT_EQ(ended.exit_code, 0) << ended.err;
+        return ended;
+    };
+    const Ended known = ended_with({"--allowance", "3"});
+    EXPECT_THAT(known.err, Not(HasSubstr("not known")));
+    EXPECT_DOUBLE_EQ(report().at("path").at("allowance_mm").get<double>(), 3.0);
+    EXPECT_EQ(report().at("check").at("rapid_moves_in_material"), 0);
+    const Ended unknown = ended_with({});
+    EXPECT_THAT(unknown.err, HasSubstr("material above the mesh is not known"));
+    EXPECT_TRUE(report().at("path").at("allowance_mm").is_null());
+    EXPECT_THAT(report().at("mesh").at("remarks").dump(), HasSubstr("material above the mesh is not known"));
+}
+
+TEST_F(FinishCommand, SaysWhereTheGaugeLengthIsFrom) {
+    const Ended ended = run({"finish",
+                             written("pocket.stl", pocket()),
+                             "--machine",
+                             "ca-head",
+                             "--tool",
+                             "ball:6",
+                             "--step-over",
+                             "5",
+                             "--out",
+                             path("out")});
+    EXPECT_THAT(ended.err, HasSubstr("gauge length is taken from the machine file"));
+}
+
+TEST_F(FinishCommand, LeavesNoProgramOfAnotherPostBesideItsReport) {
+    const std::string mesh = written("relief.stl", relief());
+    std::filesystem::create_directory(path("out"));
+    const std::string older = written("out/program.h", "0 BEGIN PGM OLD MM\n");
+    const Ended ended = finish(mesh, {"--tool", "ball:2", "--step-over", "1"});
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_FALSE(std::filesystem::exists(older));
+    EXPECT_TRUE(std::filesystem::exists(path("out/program.ngc")));
+    const std::string input = written("out/program.nc", relief()); // a mesh under the name of a program
+    const Ended kept = finish(input, {"--tool", "ball:2", "--step-over", "1"});
+    EXPECT_EQ(kept.exit_code, 1);
+    EXPECT_THAT(kept.err, HasSubstr("is an input file"));
+    EXPECT_EQ(content_of(input), relief());
 }
 
 TEST_F(FinishCommand, RefusesWhatCannotBeFinished) {

@@ -31,6 +31,21 @@ TEST(CutterOutline, HasTheHeightsOfItsShape) {
     EXPECT_NEAR(cone.height(4.0), 0.5 + (4.0 - joins) / std::tan(from_degrees(30.0)), 1e-12);
 }
 
+TEST(CutterOutline, GrowsByADistanceOnAllSides) {
+    const CutterOutline ball = cutter(CutterKind::ball, 10.0).grown(2.0);
+    EXPECT_NEAR(ball.radius(), 7.0, 1e-14);
+    EXPECT_NEAR(ball.height(0.0), -2.0, 1e-14);
+    EXPECT_NEAR(ball.height(7.0), 5.0, 1e-12); // around the same middle
+    const CutterOutline flat = cutter(CutterKind::flat, 10.0).grown(2.0);
+    EXPECT_NEAR(flat.height(5.0), -2.0, 1e-14);
+    EXPECT_NEAR(flat.height(7.0), 0.0, 1e-12);
+    const double angle = from_degrees(30.0);
+    const CutterOutline cone = cutter(CutterKind::cone, 10.0, 1.0, angle);
+    // Its flank, 2 mm to the side of the other along its normal.
+    EXPECT_NEAR(
+        cone.grown(2.0).height(4.0 + 2.0 * std::cos(angle)), cone.height(4.0) - 2.0 * std::sin(angle), 1e-12);
+}
+
 TEST(CutterOutline, RestsOnAPlaneAtTheOffsetOfABall) {
     const Vec3 normal = Vec3(1.0, 2.0, 3.0).normalized();
     const auto rest = cutter(CutterKind::ball, 6.0).on_plane({1.0, 1.0}, Vec3::Zero(), normal);

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stop_token>
 #include <vector>
@@ -150,6 +151,103 @@ TEST(Finishing, LiftsLinksOverEverythingBetween) {
     }
 }
 
+TEST(Finishing, BeginsEachPassWhereTheOneBeforeEnded) {
+    constexpr double step = 1.0;
+    const exchange::TriangleMesh flat =
+        test::graph_mesh({0, 30, 0, 20}, 10, 10, [](double, double) { return 0.0; });
+    const FinishPath level = finished(flat, ball, {.step_over = step});
+    ASSERT_GT(level.passes.size(), 15U);
+    for (std::size_t n = 1; n < level.passes.size(); ++n) {
+        const double away = (level.passes[n].tips.front() - level.passes[n - 1].tips.back()).norm();
+        EXPECT_LT(away, 1.5 * step) << n;
+    }
+    const exchange::TriangleMesh valley =
+        test::graph_mesh({0, 30, 0, 20}, 10, 400, [](double, double y) { return 0.9 * std::abs(y - 10.5); });
+    const FinishPath between = finished(valley, ball, {.step_over = step, .across = false});
+    ASSERT_GT(between.passes.size(), level.passes.size());
+    for (std::size_t n = 1; n < between.passes.size(); ++n) {
+        const Vec3& from = between.passes[n - 1].tips.back();
+        const Vec3& to = between.passes[n].tips.front();
+        if (to.y() > 1.0 && to.y() < 19.0) { // on the border passes begin anywhere
+            EXPECT_LT((to - from).norm(), 3.0 * step) << n;
+        }
+    }
+}
+
+TEST(Finishing, LiftsLinksAboveTheAllowance) {
+    const FinishPath bare = finished(hills(), ball, {.step_over = 1.0});
+    const FinishPath path = finished(hills(), ball, {.step_over = 1.0, .allowance = 5.0});
+    EXPECT_NEAR(path.safe_level, bare.safe_level + 5.0, 1e-9);
+    ASSERT_EQ(path.passes.size(), bare.passes.size());
+    for (std::size_t n = 1; n < path.passes.size(); ++n) {
+        EXPECT_GE(path.passes[n].link_level, bare.passes[n].link_level + 5.0 - 1e-9);
+        EXPECT_LE(path.passes[n].link_level, path.safe_level + 1e-9);
+        EXPECT_GE(path.passes[n].plunge_level, path.passes[n].tips.front().z() + 7.0 - 1e-9);
+    }
+}
+
+TEST(Finishing, PlungesBesideAWallFromAboveItsAllowance) {
+    const FinishSettings settings{.direction = 0.5 * pi, .step_over = 0.5, .across = false, .allowance = 1.0};
+    int beside = 0;
+    int away = 0;
+    for (const FinishPass& pass : finished(test::step_mesh(20.0, 12.0), ball, settings).passes) {
+        const double x = pass.tips.front().x(); // of the wall, along which the passes go
+        if (x > 2.2 && x < 2.8) {               // a ball on the floor, deep in the material on the wall
+            EXPECT_NEAR(pass.plunge_level, std::sqrt(9.0 - x * x) - 2.0 + 2.0, 1e-6);
+            ++beside;
+        } else if (x > 3.2) {
+            EXPECT_NEAR(pass.plunge_level, -12.0 + 1.0 + 2.0, 1e-6);
+            ++away;
+        }
+    }
+    EXPECT_GT(beside, 0);
+    EXPECT_GT(away, 20);
+}
+
+/// Two low plates and a tower between them, beside the way from one to the other, in numbers of triangles
+/// whose halves are no mixture of them.
+exchange::TriangleMesh plates_and_tower() {
+    exchange::TriangleMesh mesh;
+    const auto add = [&](const std::array<double, 4>& area, int nx, double z) {
+        const exchange::TriangleMesh level = test::graph_mesh(area, nx, 8, [&](double, double) { return z; });
+        const int first = static_cast<int>(mesh.points.size());
+        mesh.points.insert(mesh.points.end(), level.points.begin(), level.points.end());
+        for (const auto& [p, q, r] : level.triangles) {
+            mesh.triangles.push_back({first + p, first + q, first + r});
+        }
+    };
+    add({0, 10, 0, 6}, 8, -28.0);
+    add({90, 100, 0, 6}, 16, -28.0);
+    add({48, 52, 15, 17}, 8, 12.0);
+    return mesh;
+}
+
+TEST(Finishing, LiftsLinksForTheHolder) {
+    const FinishHolder holder{.radius = 20.0, .tool_length = 22.0};
+    const FinishSettings bare{.step_over = 3.0, .across = false};
+    FinishSettings settings = bare;
+    settings.holder = holder;
+    const DropTree tree = drop_tree(plates_and_tower(), {}, Mat3::Identity(), Progress());
+    const FinishPath path = finished(plates_and_tower(), ball, settings);
+    const CutterOutline body(toolpath::Profile({.flat = holder.radius, .radius = holder.radius}));
+    for (std::size_t n = 1; n < path.passes.size(); ++n) {
+        const Vec2 from = path.passes[n - 1].tips.back().head<2>();
+        const Vec2 to = path.passes[n].tips.front().head<2>();
+        for (int k = 0; k <= 50; ++k) {
+            const auto rests = tree.drop(body, from + 0.02 * k * (to - from));
+            EXPECT_TRUE(!rests || path.passes[n].link_level + holder.tool_length >= rests->z + 2.0 - 1e-9);
+        }
+    }
+    const auto reach = holder_reach(tree, Mat3::Identity(), path, holder, Progress());
+    EXPECT_TRUE(!reach || reach->length <= holder.tool_length);
+    // Links that know nothing of it meet the tower with a holder.
+    const auto met =
+        holder_reach(tree, Mat3::Identity(), finished(plates_and_tower(), ball, bare), holder, Progress());
+    ASSERT_TRUE(met);
+    EXPECT_GT(met->length, 35.0);
+    EXPECT_NEAR(met->tip.x(), 50.0, 21.0);
+}
+
 TEST(Finishing, IsTheSameForATurnedMeshAndAxis) {
     const Mat3 turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 0.5).normalized()).toRotationMatrix();
     exchange::TriangleMesh turned = hills();
@@ -192,7 +290,7 @@ TEST(Finishing, SaysHowLongTheCutterMustBe) {
     const FinishSettings settings{.step_over = 2.0, .across = false};
     const FinishPath path = finished(step, ball, settings);
     const DropTree tree = drop_tree(step, {}, pass_frame(settings.axis, 0.0), Progress());
-    const auto reach = holder_reach(tree, pass_frame(settings.axis, 0.0), path, 6.0, Progress());
+    const auto reach = holder_reach(tree, pass_frame(settings.axis, 0.0), path, {6.0, 50.0}, Progress());
     ASSERT_TRUE(reach);
     EXPECT_NEAR(reach->length, 12.0, 1e-6); // the upper level, beside the wall
     EXPECT_GT(reach->tip.x(), 1.9);
