@@ -1,5 +1,6 @@
 #include "app/command_line/posting.h"
 
+#include "app/command_line/option_values.h"
 #include "core/base/counted.h"
 #include "core/posts/post_file.h"
 #include "core/project/assets.h"
@@ -15,6 +16,21 @@
 #include <vector>
 
 namespace millwright::app {
+
+void add_feed_options(CLI::App& command, double& feed, double& plunge) {
+    command.add_option("--feed", feed, "Cutting feed rate, mm/min")
+        ->check(above_zero())
+        ->capture_default_str();
+    command.add_option("--plunge", plunge, "Plunge feed rate, mm/min")
+        ->check(above_zero())
+        ->capture_default_str();
+}
+
+void add_spindle_option(CLI::App& command, double& speed) {
+    command.add_option("--spindle", speed, "Spindle speed, rpm (0: no spindle)")
+        ->check(not_below_zero())
+        ->capture_default_str();
+}
 
 CLI::Option& add_post_options(CLI::App& command, PostChoice& choice) {
     constexpr double coarsest = 1.0;

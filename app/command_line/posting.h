@@ -26,6 +26,10 @@ struct PostedText {
     bool path_mode_changes = false; ///< of which the text has the first only
 };
 
+/// Adds --feed and --plunge, mm/min.
+void add_feed_options(CLI::App& command, double& feed, double& plunge);
+/// Adds --spindle, rpm.
+void add_spindle_option(CLI::App& command, double& speed);
 /// Adds them to `command`; returns --post.
 CLI::Option& add_post_options(CLI::App& command, PostChoice& choice);
 

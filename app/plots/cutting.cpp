@@ -26,18 +26,11 @@ namespace millwright::app {
 void add_cutting_options(CLI::App& command, CuttingOptions& options) {
     command.add_option("--machine", options.machine, "Shipped machine or machine file")
         ->capture_default_str();
-    command.add_option("--feed", options.feed_mm_per_min, "Cutting feed rate, mm/min")
-        ->check(above_zero())
-        ->capture_default_str();
-    command.add_option("--plunge", options.plunge_mm_per_min, "Plunge feed rate, mm/min")
-        ->check(above_zero())
-        ->capture_default_str();
+    add_feed_options(command, options.feed_mm_per_min, options.plunge_mm_per_min);
     command.add_option("--safe-height", options.safe_height, "Safe height above the top of the work, mm")
         ->check(above_zero())
         ->capture_default_str();
-    command.add_option("--spindle", options.spindle_rpm, "Spindle speed, rpm (0: no spindle)")
-        ->check(not_below_zero())
-        ->capture_default_str();
+    add_spindle_option(command, options.spindle_rpm);
     add_post_options(command, options.post).capture_default_str();
     add_drawing_origin(command, options.origin);
     command.add_option("--path", options.path_file, "Also write the path to this file: X, Y, Z, speed")

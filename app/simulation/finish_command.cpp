@@ -162,15 +162,8 @@ void add_pass_options(CLI::App& command, FinishOptions& options) {
 }
 
 void add_program_options(CLI::App& command, FinishOptions& options) {
-    command.add_option("--feed", options.feed_mm_per_min, "Cutting feed rate, mm/min")
-        ->check(above_zero())
-        ->capture_default_str();
-    command.add_option("--plunge", options.plunge_mm_per_min, "Plunge feed rate, mm/min")
-        ->check(above_zero())
-        ->capture_default_str();
-    command.add_option("--spindle", options.spindle_rpm, "Spindle speed, rpm (0: no spindle)")
-        ->check(not_below_zero())
-        ->capture_default_str();
+    add_feed_options(command, options.feed_mm_per_min, options.plunge_mm_per_min);
+    add_spindle_option(command, options.spindle_rpm);
     add_post_options(command, options.post).capture_default_str();
     command
         .add_option("--left",

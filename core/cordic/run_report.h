@@ -41,7 +41,7 @@ private:
     std::int64_t next_ = 1; ///< look to keep: the distances double (Brent 1980), so that a loop fits into one
 };
 
-/// Up to so many clocks, until it stands or goes round. True if it goes round.
+/// Up to so many clocks, until it halts or loops. True if it loops.
 [[nodiscard]] bool run_watched(Processor& processor, std::int64_t clocks);
 
 /// A set-point that a program is to publish, as exact arithmetic has it. mm, mm/s.

@@ -9,7 +9,7 @@
 
 namespace millwright::posts {
 
-// How far an arc is from the straight moves that it stands for.
+// How far an arc is from the straight moves that it replaces.
 
 /// The largest distance between the arc and its moves, each measured from the other, as a control goes: from
 /// the first move's begin to the last one's end, radius and third axis changing linearly with the angle. mm;

@@ -91,7 +91,7 @@ void StreamDriver::begin() {
 /// From its present position.
 void StreamDriver::follow() {
     const AxisPositions position = machine_.status().position;
-    sender_.begin(position); // it stands there already
+    sender_.begin(position); // it is there already
     {
         const std::scoped_lock lock(mutex_);
         lost_.clear();

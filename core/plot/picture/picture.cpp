@@ -23,7 +23,7 @@ namespace {
 // eXIf (PNG specification, third edition).
 
 struct PictureTurn {
-    int orientation = 1; ///< 1 to 8, as Exif has it; 1: as it stands in the file
+    int orientation = 1; ///< 1 to 8, as Exif has it; 1: as it is stored in the file
     int width = 0;       ///< of the file's pixels; 0: not found
     int height = 0;
 };

@@ -1,6 +1,6 @@
 // Brush and outline on the surface in the Grid workspace: real mouse and keys, drawn in real OpenGL.
 #include "core/plan/weight_map.h"
-#include "tests/ui/person/person.h"
+#include "tests/ui/person/dome_from_above.h"
 
 #include <gtest/gtest.h>
 
@@ -10,36 +10,14 @@
 namespace millwright::panels {
 namespace {
 
-using test::Person;
 using viewport::SurfaceToolKind;
 
-class SurfaceTools : public ::testing::Test {
+class SurfaceTools : public test::DomeFromAbove {
 protected:
-    SurfaceTools() {
-        person_.open("assets/projects/dome.json");
-        person_.app().edit("Change the grid",
-                           [](project::Project& p) {
-                               p.grid.nu = 9;
-                               p.grid.nv = 9;
-                           },
-                           {});
-        person_.press_key(render::Key::f3);
-        person_.wait_idle();
-        person_.press_key(render::Key::digit_2); // from the top
-        person_.wait_idle();
-    }
-
-    /// Shares of the view.
-    [[nodiscard]] widgets::Point at(float x, float y) {
-        const widgets::Rect view = person_.place("view");
-        return {view.x + x * view.w, view.y + y * view.h};
-    }
     [[nodiscard]] const std::optional<grid::Field>& painted() {
         return person_.project().grid.elliptic.painted;
     }
     [[nodiscard]] const grid::Region& region() { return person_.project().grid.elliptic.region; }
-
-    Person person_{{1600, 1400}};
 };
 
 TEST_F(SurfaceTools, PaintBesideAFormulaOfLargeValuesIsToldToBeFaintAndCanBeMadeToCount) {

@@ -2,7 +2,7 @@
 // takes it back. Real mouse and keys.
 #include "ui/actions/drag.h"
 
-#include "tests/ui/person/person.h"
+#include "tests/ui/person/dome_from_above.h"
 #include "ui/workspaces/arm_workspace.h"
 
 #include <gtest/gtest.h>
@@ -96,36 +96,14 @@ TEST_F(DragInTheDesign, GoesOnAfterAnActionAsAStepOfItsOwn) {
     EXPECT_EQ(person_.project().surface.patches[0].point(1, 2), before);
 }
 
-class DragOnTheSurface : public ::testing::Test {
+class DragOnTheSurface : public test::DomeFromAbove {
 protected:
-    DragOnTheSurface() {
-        person_.open("assets/projects/dome.json");
-        person_.app().edit("Change the grid",
-                           [](project::Project& p) {
-                               p.grid.nu = 9;
-                               p.grid.nv = 9;
-                           },
-                           {});
-        person_.press_key(render::Key::f3);
-        person_.wait_idle();
-        person_.press_key(render::Key::digit_2); // from the top
-        person_.wait_idle();
-    }
-
-    /// Shares of the view.
-    [[nodiscard]] Point at(float x, float y) {
-        const widgets::Rect view = person_.place("view");
-        return {view.x + x * view.w, view.y + y * view.h};
-    }
-
     void brush() {
         person_.click("inspector/surface_tool/tool/brush");
         person_.fill_in("inspector/surface_tool/radius", "8");
         person_.fill_in("inspector/surface_tool/strength", "1");
         person_.wait_idle();
     }
-
-    Person person_{{1600, 1400}};
 };
 
 TEST_F(DragOnTheSurface, OfTheBrushIsTakenBack) {

@@ -293,7 +293,7 @@ void RecordSession::send(const Block& block, double now) {
     const AxisPositions way = target - status_.position;
     const double length = way.norm();
     const double smallest = 0.5 * std::pow(10.0, -decimals_);
-    if (!(way.cwiseAbs().maxCoeff() >= smallest)) { // it stands there already, as far as records can tell
+    if (!(way.cwiseAbs().maxCoeff() >= smallest)) { // it is there already, as far as records can tell
         executed();
         return;
     }
